@@ -1,6 +1,7 @@
 #include "spoolflow/calibration/calibrate.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include "spoolflow/calibration/environment.hpp"
 #include "spoolflow/calibration/fits/bench_dither.hpp"
 #include "spoolflow/calibration/flow_bench/contradictions.hpp"
+#include "spoolflow/calibration/known_quantities.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/observer.hpp"
 #include "spoolflow/plausibility/campaign_findings.hpp"
@@ -142,9 +144,9 @@ model::Model calibrate_valve(CampaignRecordings recordings, const model::Valve& 
   constexpr double bench_share = 0.3;
   std::vector<OperatingRun> runs;
   add_runs(runs, recordings.operation, RunOf::one, nullptr);
-  calibrate_in_operation(*fitted.observer, runs, valve.rated_flow_m3_per_s, [&](double share) {
-    progress("full sensor in operation", bench_share + (1 - bench_share) * share);
-  });
+  calibrate_in_operation(
+      *fitted.observer, runs, {valve.rated_flow_m3_per_s, recordings.flow_bench != nullptr},
+      [&](double share) { progress("full sensor in operation", bench_share + (1 - bench_share) * share); });
   model::Model out;
   out.valve = valve;
   out.condensed = std::move(fitted.condensed);
@@ -168,9 +170,9 @@ model::Model calibrate_whole_valve(CampaignRecordings p_to_b, CampaignRecordings
   add_runs(runs, p_to_b.operation, RunOf::one, other);
   add_runs(runs, p_to_a.operation, RunOf::other, other);
   add_runs(runs, through_centre, RunOf::both, other);
-  calibrate_in_operation(*b.observer, runs, valve.rated_flow_m3_per_s, [&](double share) {
-    progress("full sensor in operation", 2 * bench_share + (1 - 2 * bench_share) * share);
-  });
+  calibrate_in_operation(
+      *b.observer, runs, {valve.rated_flow_m3_per_s, p_to_b.flow_bench != nullptr},
+      [&](double share) { progress("full sensor in operation", 2 * bench_share + (1 - 2 * bench_share) * share); });
   take_over_operation(*b.observer, *a.observer);
   model::Model out;
   out.valve = valve;
@@ -223,6 +225,9 @@ model::Model calibrate(const recording::Campaign& campaign, const std::string& t
   limit_currents(out);
   apply(campaign.environment, out);
   out.provenance = std::move(provenance);
+  for (const std::string& each : recordings.directions())
+    std::ranges::move(known_quantities(recordings.of(each), model::of_direction(out, each)),
+                      std::back_inserter(out.provenance.quantities));
   progress("done", 1.0);
   return out;
 }

@@ -75,11 +75,16 @@ AxialForceMaps ReadCampaign::axial_force_maps(const std::string& direction) cons
     of_edge.push_back(&loaded.recording);
   }
   if (const EquivalentBenches* equivalent = flow_bench(direction)) {
+    if (has_inferred_actuator(direction)) out.joined.clear();
     for (const recording::Recording& map : equivalent->axial_force_maps) out.joined.push_back(&map);
   }
   const double area_ratio = campaign_.load.area_ratio;  // what B takes leaves A in this proportion
   out.outlet_flow_ratio = direction == "a" ? 1 / area_ratio : area_ratio;
   return out;
+}
+
+bool ReadCampaign::has_inferred_actuator(const std::string& direction) const {
+  return flow_bench(direction) != nullptr && of(Protocol::solenoid_force_map, direction).empty();
 }
 
 const EquivalentBenches* ReadCampaign::flow_bench(const std::string& direction) const {
@@ -97,20 +102,20 @@ void ReadCampaign::infer_benches(const std::string& direction) {
   const bool spring_is_known = !of(Protocol::spring, direction).empty() || recorded.unpressurised.empty();
   if (recorded.metering.empty() && spring_is_known) return;
   const double stroke_m = campaign_.valve.stroke_m;
-  std::optional<ActuatorFit> actuator;
-  std::optional<SpringFit> spring;
+  MeasuredForces measured;
   for (const recording::Recording* map : of(Protocol::solenoid_force_map, direction)) {
     const double closed_m = closed_reading_m((*map)[recording::Channel::position], stroke_m);
     const recording::Recording force_map = shifted(*map, closed_m);
     std::optional<recording::Recording> dynamic;
     for (const recording::Recording* each : of(Protocol::solenoid_dynamic, direction))
       dynamic = shifted(*each, closed_m);
-    actuator =
+    measured.actuator =
         fit_actuator({force_map, dynamic ? &*dynamic : nullptr}, fit_magnetic_force(force_map, stroke_m), stroke_m);
   }
   for (const recording::Recording* strokes : of(Protocol::spring, direction))
-    spring = fit_spring(without_zero_offset(*strokes, stroke_m), stroke_m);
-  const MeasuredForces measured{actuator ? &*actuator : nullptr, spring ? &*spring : nullptr};
+    measured.spring = fit_spring(without_zero_offset(*strokes, stroke_m), stroke_m);
+  for (const recording::Recording* map : axial_force_maps(direction).joined)
+    measured.axial.push_back(fit_axial_force(without_zero_offset(*map, stroke_m), stroke_m));
   flow_benches_.emplace(direction, equivalent_benches(recorded, measured, stroke_m));
 }
 
@@ -118,7 +123,8 @@ CampaignRecordings ReadCampaign::of(const std::string& direction) const {
   const EquivalentBenches* equivalent = flow_bench(direction);
   const auto only = [&](Protocol protocol, recording::Recording EquivalentBenches::*inferred) -> const auto& {
     const Recordings recorded = of(protocol, direction);
-    return recorded.empty() && equivalent != nullptr ? equivalent->*inferred : *recorded.at(0);
+    return equivalent != nullptr && (recorded.empty() || has_inferred_actuator(direction)) ? equivalent->*inferred
+                                                                                           : *recorded.at(0);
   };
   return {only(Protocol::spring, &EquivalentBenches::spring),
           only(Protocol::solenoid_force_map, &EquivalentBenches::solenoid_force_map),

@@ -63,6 +63,8 @@ class ReadCampaign {
   [[nodiscard]] Recordings of(recording::Protocol protocol, const std::string& direction) const;
   [[nodiscard]] const EquivalentBenches* flow_bench(const std::string& direction) const;
   [[nodiscard]] AxialForceMaps axial_force_maps(const std::string& direction) const;
+  /// The armature's friction is then in that of all forces, and what force rigs measured stands among the equivalents.
+  [[nodiscard]] bool has_inferred_actuator(const std::string& direction) const;
 
   const recording::Campaign& campaign_;
   std::vector<recording::ReadOptions> options_;

@@ -262,7 +262,6 @@ ObserverCalibration calibrate_on_bench(const ObserverRecordings& recordings, con
   if (recordings.flow_bench != nullptr) {
     widen(out.residuals, *recordings.flow_bench);
     out.fits.insert(out.fits.end(), recordings.flow_bench->known.begin(), recordings.flow_bench->known.end());
-    out.inferred = recordings.flow_bench->inferred;
   }
   out.defaults = {"hardest_acceleration_m_per_s2", "drifts and process noise of the pressure", "band_coverage_factor",
                   "band_unobserved_factor", "band_creep_per_s"};
@@ -272,16 +271,16 @@ ObserverCalibration calibrate_on_bench(const ObserverRecordings& recordings, con
   return calibration;
 }
 
-void calibrate_in_operation(model::Observer& observer, const std::vector<OperatingRun>& runs,
-                            double rated_flow_m3_per_s, const std::function<void(double)>& progress) {
+void calibrate_in_operation(model::Observer& observer, const std::vector<OperatingRun>& runs, const InOperation& valve,
+                            const std::function<void(double)>& progress) {
   for (const OperatingRun& run : runs)
     observer.parameters.largest_voltage_V =
         std::max(observer.parameters.largest_voltage_V, largest_voltage_V(*run.recording));
   const std::vector<std::string> of_bench = std::move(observer.defaults);
   const std::vector<OperatingRun> used = with_reference(runs);
   if (!used.empty()) {
-    OperationFit fit = fit_operation(observer.parameters, used, rated_flow_m3_per_s, progress);
-    if (!observer.inferred.empty() && fit.force_error_ratio < least_inferred_force_error_ratio) {
+    OperationFit fit = fit_operation(observer.parameters, used, valve.rated_flow_m3_per_s, progress);
+    if (valve.on_flow_bench && fit.force_error_ratio < least_inferred_force_error_ratio) {
       fit.force_error_ratio = least_inferred_force_error_ratio;
       scale_band(observer.parameters, fit.force_error_ratio);
     }

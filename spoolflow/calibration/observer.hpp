@@ -30,10 +30,15 @@ struct ObserverCalibration {
 [[nodiscard]] ObserverCalibration calibrate_on_bench(const ObserverRecordings& recordings, const model::Valve& valve,
                                                      double closed_below_m);
 
+struct InOperation {
+  double rated_flow_m3_per_s;
+  bool on_flow_bench;  ///< some of its forces are inferred
+};
+
 /// What only operation shows, from runs of which those without a reference flow are left out; what no run shows is
 /// assumed, and said so in `defaults`. `progress` receives the share done. Throws CalibrationError.
-void calibrate_in_operation(model::Observer& observer, const std::vector<OperatingRun>& runs,
-                            double rated_flow_m3_per_s, const std::function<void(double)>& progress);
+void calibrate_in_operation(model::Observer& observer, const std::vector<OperatingRun>& runs, const InOperation& valve,
+                            const std::function<void(double)>& progress);
 
 /// The other direction of a whole valve takes over what operation showed of the one.
 void take_over_operation(const model::Observer& one, model::Observer& other);

@@ -87,9 +87,8 @@ struct Observer {
   sensor::ObserverParameters<double> parameters;
   Range oil_temperature_K;
   std::vector<Residual> residuals;
-  std::vector<Fit> fits;                   ///< may be empty
-  std::vector<std::string> defaults;       ///< what no recording showed, and was assumed
-  std::vector<std::string> inferred = {};  ///< what no force bench measured, a sentence each; empty: all was
+  std::vector<Fit> fits;              ///< may be empty
+  std::vector<std::string> defaults;  ///< what no recording showed, and was assumed
 };
 
 /// One direction of flow of a whole valve.

@@ -49,13 +49,24 @@ struct Adaptation {
 };
 inline constexpr std::string_view adaptation_protocol = "adaptation";
 
+/// How one quantity of the valve is known.
+struct KnownQuantity {
+  std::string direction;                      ///< "b" or "a"
+  std::string of;                             ///< "spring force", …
+  std::string how;                            ///< "measured", "inferred" or "assumed"
+  std::string from;                           ///< which recordings show it and by what; what is assumed
+  std::string unit;                           ///< of the uncertainty, SI; "1": as a share of the quantity
+  std::optional<double> uncertainty_95 = {};  ///< half width, >= 0; absent: no recording shows it
+};
+
 struct Provenance {
   std::string tool_version;
   std::string created;  ///< UTC, ISO 8601
   std::vector<InputFile> inputs;
-  std::vector<Adaptation> adaptations = {};  ///< oldest first
-  std::vector<std::string> doubts = {};      ///< what physics says against the recordings, a sentence each
-  bool simulated = false;                    ///< the campaign says that its recordings are
+  std::vector<Adaptation> adaptations = {};    ///< oldest first
+  std::vector<std::string> doubts = {};        ///< what physics says against the recordings, a sentence each
+  bool simulated = false;                      ///< the campaign says that its recordings are
+  std::vector<KnownQuantity> quantities = {};  ///< of a type and its units as those of the valve the type was made from
 };
 
 /// Throws std::runtime_error where the file cannot be read.

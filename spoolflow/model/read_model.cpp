@@ -53,6 +53,16 @@ Adaptation adaptation(const JsonNode& node) {
   return out;
 }
 
+KnownQuantity known_quantity(const JsonNode& node) {
+  KnownQuantity out{node.at("direction").text(), node.at("of").text(),   node.at("how").text(),
+                    node.at("from").text(),      node.at("unit").text(), {}};
+  if (out.direction != "a" && out.direction != "b") node.at("direction").refuse("is neither \"a\" nor \"b\"");
+  if (out.how != "measured" && out.how != "inferred" && out.how != "assumed")
+    node.at("how").refuse("is neither \"measured\" nor \"inferred\" nor \"assumed\"");
+  if (node.has("uncertainty_95")) out.uncertainty_95 = node.at("uncertainty_95").number(0, 1e15);
+  return out;
+}
+
 Provenance provenance(const JsonNode& node) {
   Provenance out{tool_version(node.at("tool")), node.at("created").text(), {}};
   for (const JsonNode& input : node.at("inputs").elements()) {
@@ -64,6 +74,9 @@ Provenance provenance(const JsonNode& node) {
   }
   if (node.has("doubts")) {
     for (const JsonNode& each : node.at("doubts").elements()) out.doubts.push_back(each.text());
+  }
+  if (node.has("quantities")) {
+    for (const JsonNode& each : node.at("quantities").elements()) out.quantities.push_back(known_quantity(each));
   }
   out.simulated = node.has("origin") && node.at("origin").text() == "simulated";
   return out;
@@ -100,9 +113,6 @@ Observer observer(const JsonNode& node) {
     for (const JsonNode& each : node.at("fits").elements()) out.fits.push_back(fit(each));
   }
   for (const JsonNode& each : node.at("defaults").elements()) out.defaults.push_back(each.text());
-  if (node.has("inferred")) {
-    for (const JsonNode& each : node.at("inferred").elements()) out.inferred.push_back(each.text());
-  }
   describe_observer(out.parameters, TableReader(node));
   return out;
 }

@@ -49,6 +49,12 @@ Json provenance(const Provenance& provenance) {
                        {"friction_share", each.wear->friction_share}};
   }
   if (!provenance.doubts.empty()) out["doubts"] = provenance.doubts;
+  for (const KnownQuantity& each : provenance.quantities) {
+    Json quantity{
+        {"direction", each.direction}, {"of", each.of}, {"how", each.how}, {"from", each.from}, {"unit", each.unit}};
+    if (each.uncertainty_95) quantity["uncertainty_95"] = *each.uncertainty_95;
+    out["quantities"].push_back(std::move(quantity));
+  }
   if (provenance.simulated) out["origin"] = "simulated";
   return out;
 }
@@ -97,7 +103,6 @@ Json observer(const Observer& observer) {
            {"residuals", residuals(observer.residuals)},
            {"fits", fits(observer.fits)},
            {"defaults", observer.defaults}};
-  if (!observer.inferred.empty()) out["inferred"] = observer.inferred;
   describe_observer(observer.parameters, TableWriter(out));
   return out;
 }

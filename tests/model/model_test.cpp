@@ -94,6 +94,26 @@ TEST(Model, ComesBackBitForBitFromItsFile) {
   EXPECT_EQ(written(back), text);
 }
 
+TEST(Model, RemembersHowEachQuantityIsKnownAndGivesADirectionItsOwn) {
+  Model model = small_model();
+  EXPECT_THAT(written(model), Not(HasSubstr("quantities")));
+  model.provenance.quantities = {{"b", "spring force", "inferred", "unpressurised_strokes", "N", 0.4},
+                                 {"a", "moving mass", "assumed", "as usual", "1"}};
+  const std::string text = written(model);
+  const std::vector<KnownQuantity> back = parse_model(text, "model.json").provenance.quantities;
+  ASSERT_EQ(back.size(), 2U);
+  EXPECT_EQ(back[0].from, "unpressurised_strokes");
+  EXPECT_EQ(back[0].uncertainty_95, 0.4);
+  EXPECT_EQ(back[1].of, "moving mass");
+  EXPECT_FALSE(back[1].uncertainty_95);  // not known is not zero
+  EXPECT_THAT([&] { (void)parse_model(replaced(text, "\"how\": \"assumed\"", "\"how\": \"guessed\""), "m.json"); },
+              ThrowsMessage<ModelError>(HasSubstr("/provenance/quantities/1/how")));
+  model.p_to_a = Direction{};
+  const std::vector<KnownQuantity> of_a = of_direction(model, "a").provenance.quantities;
+  ASSERT_EQ(of_a.size(), 1U);
+  EXPECT_EQ(of_a[0].of, "moving mass");
+}
+
 TEST(Model, RemembersThatItsRecordingsWereSimulated) {
   Model model = small_model();
   EXPECT_FALSE(parse_model(written(model), "model.json").provenance.simulated);

@@ -47,9 +47,11 @@ EdgeColumn column_at(const AxialForceFit& fit, std::size_t position, double spri
   go_on(friction_N);
   conductance.push_back(conductance[last]);
   known_Pa.push_back(known_Pa[last] + beyond_Pa);
-  return {interpolate_monotone({known_Pa, force_N}, pressures_Pa),
-          interpolate_monotone({known_Pa, friction_N}, pressures_Pa),
-          interpolate_monotone({known_Pa, conductance}, pressures_Pa)};
+  EdgeColumn out{interpolate_monotone({known_Pa, force_N}, pressures_Pa),
+                 interpolate_monotone({known_Pa, friction_N}, pressures_Pa),
+                 interpolate_monotone({known_Pa, conductance}, pressures_Pa)};
+  for (double& each : out.friction_N) each = std::max(0.0, each);  // rounding, and the trend beyond the highest level
+  return out;
 }
 
 double interpolated(const std::vector<double>& at, const std::vector<double>& values, double x) {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/Cholesky>
 
-#include "spoolflow/calibration/fits/axial_force.hpp"
 #include "spoolflow/calibration/fits/bench_strokes.hpp"
 #include "spoolflow/calibration/fits/position_sensor.hpp"
 
@@ -125,6 +125,22 @@ double find_lag_s(const MeteredStrokes& strokes, const Level& level, double stro
 }
 
 }  // namespace
+
+ConductanceFit conductance_of(const AxialForceFit& measured) {
+  ConductanceFit out{measured.oil_temperature_K, 0, measured.flow_residual.rms(), measured.flow_residual.largest, {}};
+  for (const model::AxialForceLoop& loop : measured.loops) {
+    const auto& pressure_Pa = loop.pressure_difference_Pa;
+    const auto nodes = static_cast<double>(pressure_Pa.size());
+    ConductanceLevel& level = out.levels.emplace_back();
+    level.pressure_difference_Pa = std::accumulate(pressure_Pa.begin(), pressure_Pa.end(), 0.0) / nodes;
+    for (int k = 0; k < points; ++k) {
+      const auto at = static_cast<std::size_t>(std::lround((nodes - 1) * k / (points - 1)));
+      level.conductance_m3_per_s_per_rootPa.push_back(std::max(0.0, loop.flow_m3_per_s[at]) /
+                                                      std::sqrt(std::max(1.0, pressure_Pa[at])));
+    }
+  }
+  return out;
+}
 
 ConductanceFit fit_conductance(const recording::Recording& recording, double stroke_m) {
   HeldPressures held = find_held_pressures(recording, stroke_m);

@@ -4,7 +4,7 @@
 /// through a first-order lag, which the equations go through as well.
 #include <vector>
 
-#include "spoolflow/calibration/fits/level.hpp"
+#include "spoolflow/calibration/fits/axial_force.hpp"
 #include "spoolflow/recording/recording.hpp"
 
 namespace spoolflow::calibration {
@@ -24,6 +24,9 @@ struct ConductanceFit {
   double largest_m3_per_s;
   std::vector<ConductanceLevel> levels;  ///< rising
 };
+
+/// What a force rig metered beside its forces.
+[[nodiscard]] ConductanceFit conductance_of(const AxialForceFit& measured);
 
 /// Needs `position`, `flow_reference` and a pressure difference; `pressure_difference_set` helps to separate the levels
 /// apart. Throws CalibrationError where there are fewer than three levels with strokes both ways.

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "spoolflow/calibration/fits/bench_strokes.hpp"
 #include "spoolflow/calibration/flow_bench/conductance_fit.hpp"
 #include "spoolflow/calibration/flow_bench/flow_bench_fit.hpp"
@@ -178,37 +176,16 @@ model::Fit known_of_forces(const FlowBenchFit& fit, const ConductanceFit& flow, 
                     values, covariance);
 }
 
-/// By how much all forces may be wrong in proportion: coenergy and the momentum of the jet each give their scale, and
-/// what parts them is counted in full beside what the jet's angle is unknown by.
-double scale_uncertainty(const EquivalentBenches& benches) {
-  constexpr double of_jet_angle = 0.14;  // von Mises' 69 degrees within 3
-  constexpr double without_flow = 0.3;   // as far as coenergy was found wrong on valves of the rig
+/// By how much all forces may be wrong in proportion. Where no force rig says so, coenergy and the momentum of the jet
+/// each give their scale, and what parts them is counted in full beside what the jet's angle is unknown by.
+double scale_uncertainty(const EquivalentBenches& benches, const FlowBenchFit& fit, const MeasuredForces& measured) {
+  if (measured.spring || !measured.axial.empty()) {
+    const Eigen::Index middle = fit.layout.map_at(fit.layout.currents.count / 2, fit.layout.places.count / 2);
+    return 2 * std::sqrt(std::max(0.0, fit.forces.covariance(middle, middle)));
+  }
+  constexpr double without_flow = 0.3;  // as far as coenergy was found wrong on valves of the rig
   if (benches.known.empty()) return without_flow;
-  return std::abs(benches.known.back().parameters.back().value - 1) + of_jet_angle;
-}
-
-/// What no force bench measured.
-std::vector<std::string> sentences_of(const EquivalentBenches& benches, const FlowBenchRecordings& recordings,
-                                      const MeasuredForces& measured) {
-  std::vector<std::string> out;
-  if (measured.actuator == nullptr) {
-    out.push_back(
-        fmt::format("the magnetic force, from the coil's flux linkage and where the spool slides: its scale within "
-                    "{:.0f} %, which the "
-                    "flow does not depend on, its shape within {:.2g} N",
-                    100 * scale_uncertainty(benches), 2 * benches.force_residual_N));
-    out.push_back(fmt::format(
-        "magnetic hysteresis, of {:.0f} mA half width within {:.0f} mA, and eddy currents, from motion",
-        1e3 * benches.actuator.actuator.coercive_current_A, 2e3 * benches.actuator.actuator.current_uncertainty_A));
-    out.emplace_back("armature friction, which is counted with the spool's");
-  }
-  if (measured.spring == nullptr) out.emplace_back("the spring, on the scale of the magnetic force");
-  if (!recordings.metering.empty()) {
-    out.push_back(
-        fmt::format("flow force and spool friction at held pressure differences, within {:.2g} N on that scale",
-                    2 * benches.force_residual_N));
-  }
-  return out;
+  return std::abs(benches.known.back().parameters.back().value - 1) + jet_force_95;
 }
 
 double largest_voltage_V(const FlowBenchRecordings& recordings) {
@@ -275,14 +252,27 @@ EquivalentBenches equivalent_benches(const FlowBenchRecordings& recordings, cons
                         0,
                         largest_voltage_V(recordings),
                         {},
-                        {}};
+                        measured.spring.has_value(),
+                        !measured.axial.empty(),
+                        0};
+  std::vector<ConductanceFit> flows;
   for (const Recording* metering : recordings.metering) {
-    const ConductanceFit flow = fit_conductance(*metering, stroke_m);
+    const ConductanceFit& flow = flows.emplace_back(fit_conductance(*metering, stroke_m));
     out.flow_residual_m3_per_s = std::max(out.flow_residual_m3_per_s, flow.residual_m3_per_s);
     out.axial_force_maps.push_back(axial_force_of(fit, flow, metering->file, stroke_m));
     if (out.known.empty()) out.known.push_back(known_of_forces(fit, flow, stroke_m));
   }
-  out.inferred = sentences_of(out, recordings, measured);
+  const auto metered = [&](const AxialForceFit& map) {
+    return std::ranges::any_of(flows, [&](const ConductanceFit& flow) {
+      return !(std::abs(flow.oil_temperature_K - map.oil_temperature_K) > same_oil_K);
+    });
+  };
+  for (const AxialForceFit& map : measured.axial) {
+    if (!measured.actuator && !metered(map))
+      out.axial_force_maps.push_back(
+          axial_force_of(fit, conductance_of(map), "axial force, from force rig and flow bench", stroke_m));
+  }
+  out.force_scale_95 = scale_uncertainty(out, fit, measured);
   return out;
 }
 

@@ -89,15 +89,17 @@ FluxLinkageFit flux_linkage_of(const std::vector<TrackedRun>& runs, const std::v
                   runs.front().coil.file));
 }
 
-std::vector<double> rising_temperatures_K(const std::vector<TrackedRun>& metering) {
-  constexpr double same_K = 3, unknown_K = 323.15;
+/// Of the first runs, which are under held pressure differences where there are any, and of the axial-force rig.
+std::vector<double> rising_temperatures_K(const std::vector<TrackedRun>& runs, std::size_t first,
+                                          const std::vector<AxialForceFit>& axial) {
+  constexpr double unknown_K = 323.15;
   std::vector<double> all, out;
-  for (const TrackedRun& run : metering) {
-    if (!std::isnan(run.oil_temperature_K)) all.push_back(run.oil_temperature_K);
-  }
+  for (std::size_t k = 0; k < first; ++k) all.push_back(runs[k].oil_temperature_K);
+  for (const AxialForceFit& fit : axial) all.push_back(fit.oil_temperature_K);
+  std::erase_if(all, [](double each) { return std::isnan(each); });
   std::sort(all.begin(), all.end());
   for (const double each : all) {
-    if (out.empty() || each > out.back() + same_K) out.push_back(each);
+    if (out.empty() || each > out.back() + same_oil_K) out.push_back(each);
   }
   return out.empty() ? std::vector<double>{unknown_K} : out;
 }
@@ -127,8 +129,28 @@ void require_sliding(const std::vector<TrackedRun>& runs) {
   throw CalibrationError(
       fmt::format("{}: on the flow bench the spool slides evenly in {} samples only, {} are needed to identify the "
                   "forces; stroke the "
-                  "valve over its whole stroke both ways, at 5 %/s or faster",
+                  "valve over its whole stroke both ways, at 5 %/s or faster, with the electronics' dither off",
                   runs.empty() ? std::string("the campaign") : runs.front().coil.file, samples, least_samples));
+}
+
+/// What the force rigs measured, at the layout's knots.
+std::vector<MeasuredForce> at_knots(const MeasuredForces& measured, const ForceLayout& layout) {
+  std::vector<MeasuredForce> out;
+  for (int k = 0; measured.spring && k < layout.spring.count; ++k) {
+    const double x = layout.stroke_m * k / (layout.spring.count - 1);
+    out.push_back({x, 0, std::nan(""), measured.spring->spring.at(x).value});
+  }
+  for (const AxialForceFit& fit : measured.axial) {
+    for (const model::AxialForceLoop& loop : fit.loops) {
+      for (int k = 0; k < layout.force.count; ++k) {
+        const double share = static_cast<double>(k) / (layout.force.count - 1);
+        const auto at = static_cast<std::size_t>(std::lround(share * static_cast<double>(loop.position_m.size() - 1)));
+        out.push_back({loop.position_m[at], loop.pressure_difference_Pa[at], fit.oil_temperature_K,
+                       0.5 * (loop.opening_N[at] + loop.closing_N[at])});
+      }
+    }
+  }
+  return out;
 }
 
 /// The coil as a force bench measured it.
@@ -201,14 +223,12 @@ void fit_with_coil(FlowBenchFit& out, ForcePriors priors, const std::vector<Trac
 FlowBenchFit fit_flow_bench(const FlowBenchRecordings& recordings, const MeasuredForces& measured, double stroke_m) {
   const std::vector<TrackedRun> runs = track_all(recordings, stroke_m);
   require_sliding(runs);
-  const auto of_metering = static_cast<std::ptrdiff_t>(recordings.metering.size());
   const double largest_A =
-      measured.actuator != nullptr
-          ? measured.actuator->actuator.magnetic_force.map.row_axis.at(sensor::force_map_currents - 1)
-          : largest_current_A(runs);
+      measured.actuator ? measured.actuator->actuator.magnetic_force.map.row_axis.at(sensor::force_map_currents - 1)
+                        : largest_current_A(runs);
   FlowBenchFit out{
       ForceLayout(largest_A, stroke_m,
-                  rising_temperatures_K({runs.begin(), runs.begin() + std::max<std::ptrdiff_t>(1, of_metering)})),
+                  rising_temperatures_K(runs, std::max<std::size_t>(1, recordings.metering.size()), measured.axial)),
       {},
       {},
       {},
@@ -216,11 +236,8 @@ FlowBenchFit fit_flow_bench(const FlowBenchRecordings& recordings, const Measure
       {},
       0};
   ForcePriors priors;
-  if (measured.spring != nullptr) {
-    for (int k = 0; k < out.layout.spring.count; ++k)
-      priors.spring_N.push_back(measured.spring->spring.at(stroke_m * k / (out.layout.spring.count - 1)).value);
-  }
-  if (measured.actuator != nullptr) {
+  priors.measured = at_knots(measured, out.layout);
+  if (measured.actuator) {
     fit_with_actuator(out, priors, *measured.actuator, runs);
   } else {
     fit_with_coil(out, priors, runs);

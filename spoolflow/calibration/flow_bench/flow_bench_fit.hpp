@@ -7,6 +7,9 @@
 
 namespace spoolflow::calibration {
 
+/// Oil temperatures that are no further apart are one.
+inline constexpr double same_oil_K = 3;
+
 struct FlowBenchFit {
   ForceLayout layout;
   ForceSolution forces;

@@ -1,8 +1,10 @@
 #pragma once
 /// What a fit of the flow bench is made from.
+#include <optional>
 #include <vector>
 
 #include "spoolflow/calibration/fits/actuator_fit.hpp"
+#include "spoolflow/calibration/fits/axial_force.hpp"
 #include "spoolflow/calibration/fits/spring_fit.hpp"
 #include "spoolflow/recording/recording.hpp"
 
@@ -15,10 +17,11 @@ struct FlowBenchRecordings {
   std::vector<const recording::Recording*> operation;
 };
 
-/// What force benches measured of the same valve; null where they did not.
+/// What force benches measured of the same valve, empty where they did not; positions free of drift.
 struct MeasuredForces {
-  const ActuatorFit* actuator = nullptr;
-  const SpringFit* spring = nullptr;
+  std::optional<ActuatorFit> actuator;
+  std::optional<SpringFit> spring;
+  std::vector<AxialForceFit> axial;  ///< of both edges of the path together
 };
 
 }  // namespace spoolflow::calibration

@@ -126,12 +126,7 @@ void add_priors(Equations& to, const ForceLayout& l, const ForcePriors& priors) 
   }
   for (int p = 0; p < l.places.count; ++p)
     add_smooth(to, l.currents.count, priors.map_bend, [&](int k) { return l.map_at(k, p); });
-  constexpr double measured_spring_N = 0.1;
-  for (int k = 0; k < l.spring.count; ++k) {
-    const bool measured = !priors.spring_N.empty();
-    to.add({{l.spring_at(k), 1.0}}, measured ? priors.spring_N[static_cast<std::size_t>(k)] : 0,
-           measured ? measured_spring_N : 1e3);
-  }
+  for (int k = 0; k < l.spring.count; ++k) to.add({{l.spring_at(k), 1.0}}, 0, 1e3);
   add_smooth(to, l.spring.count, 0.05, [&](int k) { return l.spring_at(k); });
   for (int layer = 0; layer < l.layers(); ++layer) {
     for (int k = 0; k < l.force.count; ++k) to.add({{l.force_at(layer, k), 1.0}}, 0, 10);
@@ -153,6 +148,17 @@ void add_priors(Equations& to, const ForceLayout& l, const ForcePriors& priors) 
   for (int k = 0; k < coil_sizes; ++k) {
     const auto n = static_cast<std::size_t>(k);
     to.add({{l.coil_at(k), 1.0}}, priors.coil[n], priors.coil_deviation[n]);
+  }
+}
+
+void add_measured(Equations& to, const ForceLayout& l, const std::vector<MeasuredForce>& measured) {
+  constexpr double deviation_N = 0.1;
+  for (const MeasuredForce& each : measured) {
+    const Knots::Place s = l.spring.at(each.position_m);
+    Row row{{l.spring_at(s.lower), 1 - s.share}, {l.spring_at(s.lower + 1), s.share}};
+    add_layers(row, l, layer_at(l, each.oil_temperature_K), l.force, each.position_m,
+               1e-5 * each.pressure_difference_Pa, [&](int layer, int k) { return l.force_at(layer, k); });
+    to.add(row, each.force_N, deviation_N);
   }
 }
 
@@ -188,6 +194,7 @@ ForceSolution solve_forces(const ForceLayout& layout, const ForcePriors& priors,
   for (int round = before.size() == 0 ? 0 : 1; round < rounds; ++round) {
     Equations equations(layout.unknowns());
     add_priors(equations, layout, priors);
+    add_measured(equations, layout, priors.measured);
     for (const Equation& each : all) {
       const double away = out.unknowns.size() == 0 ? 0 : deviation_of(each, out.unknowns) / (3 * out.residual_N);
       equations.add(each.row, each.right, out.residual_N * std::sqrt(samples_alike * (1 + away * away)));

@@ -5,6 +5,7 @@
 
 #include "spoolflow/calibration/fits/bench_strokes.hpp"
 #include "spoolflow/calibration/fits/position_sensor.hpp"
+#include "spoolflow/sensor/signals/dither.hpp"
 #include "spoolflow/sensor/signals/position_track.hpp"
 
 namespace spoolflow::calibration {
@@ -84,12 +85,17 @@ TrackedRun track_run(const recording::Recording& recording, double stroke_m, boo
                                                        hardest_acceleration_m_per_s2};
   sensor::PositionState<double> state;
   sensor::begin(state, out.coil.samples.empty() ? 0.0 : out.coil.samples.front().position_m);
+  sensor::DitherState<double> dither_state;
+  double largest_A = 0;
+  for (const auto& sample : out.coil.samples) largest_A = std::max(largest_A, std::abs(sample.current_A));
+  sensor::begin(dither_state, out.coil.samples.empty() ? 0.0 : out.coil.samples.front().current_A);
   Sliding sliding;
   double counted_s = -INFINITY;
   for (std::size_t k = 0; k < out.coil.size(); ++k) {
-    const auto point = sensor::track(position_sensor, state, out.coil.samples[k], sensor::QuietCoil<double>{}, 0.0,
-                                     sensor::Dither<double>{}, false);
-    const bool worn = sliding.worn(point) && !point.fault;
+    const auto& sample = out.coil.samples[k];
+    const auto dither = sensor::follow_dither(dither_state, sample.current_A, largest_A, sample.time_step_s);
+    const auto point = sensor::track(position_sensor, state, sample, sensor::QuietCoil<double>{}, 0.0, dither, false);
+    const bool worn = sliding.worn(point) && !point.fault && !dither.present;
     const double end_m = end_stroke_share * stroke_m;
     if (!worn || point.position_m < end_m || point.position_m > stroke_m - end_m) continue;
     if (out.coil.time_s[k] < counted_s + counted_every_s) continue;

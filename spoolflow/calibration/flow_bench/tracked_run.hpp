@@ -7,7 +7,7 @@
 
 namespace spoolflow::calibration {
 
-/// A sample in which the spool slides evenly: friction has its full size and its sign is known.
+/// A sample in which the spool slides evenly, without dither: friction has its full size and its sign is known.
 struct SlidingSample {
   std::size_t sample;
   double position_m;  ///< the closed spool reads zero

@@ -103,6 +103,7 @@ UnitCalibration calibrate_unit(const model::Model& type, const std::string& type
   provenance.inputs.push_back(
       {type_protocol, std::filesystem::path(type_file).filename().string(), model::sha256_of_file(type_file), 0});
   provenance.simulated = unit.valve.simulated || type.provenance.simulated;
+  provenance.quantities = type.provenance.quantities;
   std::deque<recording::Recording> recordings;
   std::vector<UnitRun> runs;
   for (std::size_t k = 0; k < unit.recordings.size(); ++k) {

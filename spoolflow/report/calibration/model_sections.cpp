@@ -91,6 +91,10 @@ Text residual_text(double residual, const std::string& unit) {
   return three_digits(residual) + " " + html_text(unit);
 }
 
+Text uncertainty_text(double uncertainty, const std::string& unit) {
+  return unit == "1" ? Text(two_digits(100 * uncertainty) + " %") : residual_text(uncertainty, unit);
+}
+
 void add_residuals(HtmlTable& table, const std::string& estimator, const std::vector<model::Residual>& residuals) {
   for (const model::Residual& residual : residuals) {
     table.row({html_text(residual.of), estimator, residual_text(residual.rms, residual.unit),
@@ -167,6 +171,20 @@ void show_residuals(HtmlPage& page, const model::Model& model) {
   HtmlTable table({{"Map", Set::text}, {"of the", Set::text}, {"RMS"}, {"largest"}});
   add_residuals(table, "condensed", model.condensed.residuals);
   if (model.observer) add_residuals(table, "observer", model.observer->residuals);
+  page.table(table);
+}
+
+void show_quantities(HtmlPage& page, const model::Model& model) {
+  if (model.provenance.quantities.empty()) return;
+  page.section("What was measured, inferred, assumed");
+  if (model.type) {
+    page.paragraph("Of the valve that the type was made from; by how much units differ stands in the model's type.");
+  }
+  HtmlTable table({{"Quantity", Set::text}, {"is", Set::text}, {"from", Set::text}, {"within (95 %)"}});
+  for (const model::KnownQuantity& each : model.provenance.quantities) {
+    table.row({html_text(each.of), html_text(each.how), html_text(each.from),
+               each.uncertainty_95 ? uncertainty_text(*each.uncertainty_95, each.unit) : Text("not known")});
+  }
   page.table(table);
 }
 

@@ -16,6 +16,8 @@ namespace spoolflow::report {
 void show_valve(HtmlPage& page, const model::Model& model, const std::vector<validation::RunResult>& runs);
 /// How well the maps hold on the samples they were made from.
 void show_residuals(HtmlPage& page, const model::Model& model);
+/// Which quantities were measured, which inferred, which assumed; nothing where the model does not say.
+void show_quantities(HtmlPage& page, const model::Model& model);
 /// Input files with their checksums.
 void show_inputs(HtmlPage& page, const model::Model& model, const std::vector<validation::RunResult>& runs);
 /// The measured maps and what averaging removed (paper Figs 5 and 8).

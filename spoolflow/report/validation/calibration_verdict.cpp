@@ -1,4 +1,6 @@
 /// What a calibration amounts to, in words.
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "spoolflow/model/residual_of.hpp"
@@ -54,9 +56,13 @@ Verdict calibration_verdict(const model::Model& model) {
           : phrase("At {} positions a higher pressure difference pulls less, the first at {}: there one force "
                    "means several flow rates.",
                    uniqueness.ambiguous_at_m.size(), fixed(units::length(uniqueness.ambiguous_at_m.front()), 2)));
-  if (model.observer) {
-    for (const std::string& each : model.observer->inferred)
-      out.limits.emplace_back("Inferred from the flow bench, not measured: " + each + ".");
+  const auto& known = model.provenance.quantities;
+  const auto scale = std::ranges::find(known, "scale of all forces", &model::KnownQuantity::of);
+  if (scale != known.end() && scale->how == "inferred") {
+    out.limits.emplace_back(
+        fmt::format("No force bench measured a newton: forces are inferred from the flow bench, their common scale "
+                    "within {:.0f} %. The flow rate does not depend on that scale.",
+                    100 * scale->uncertainty_95.value_or(1)));
   }
   if (model.observer && !model.observer->defaults.empty()) {
     std::string names;

@@ -176,6 +176,7 @@ void show_direction(HtmlPage& page, const model::Model& of_one, const std::vecto
 
 /// Residuals, maps and fits of a model of one direction.
 void show_calibration(HtmlPage& page, const model::Model& model) {
+  show_quantities(page, model);
   show_residuals(page, model);
   show_maps(page, model);
   show_temperatures(page, model);

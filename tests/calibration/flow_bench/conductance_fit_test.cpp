@@ -55,5 +55,20 @@ TEST(ConductanceFit, SeesThroughTheMetersLagWhereTheSpoolHops) {
   }
 }
 
+TEST(ConductanceFit, OfAForceRigIsItsFlowOverTheRootOfThePressure) {
+  AxialForceFit rig{};
+  model::AxialForceLoop& loop = rig.loops.emplace_back();
+  for (int k = 0; k < 97; ++k) {
+    loop.pressure_difference_Pa.push_back(2e6 - 1e3 * k);  // a supply that gives way
+    loop.flow_m3_per_s.push_back(conductance(metered_stroke_m * k / 96) * std::sqrt(2e6 - 1e3 * k));
+  }
+  const ConductanceFit fit = conductance_of(rig);
+  ASSERT_EQ(fit.levels.size(), 1U);
+  EXPECT_NEAR(fit.levels[0].pressure_difference_Pa, 2e6 - 48e3, 1);
+  for (const int k : {0, 20, 48})
+    EXPECT_NEAR(fit.levels[0].conductance_m3_per_s_per_rootPa[static_cast<std::size_t>(k)],
+                conductance(metered_stroke_m * k / (conductance_positions - 1)), 1e-13);
+}
+
 }  // namespace
 }  // namespace spoolflow::calibration

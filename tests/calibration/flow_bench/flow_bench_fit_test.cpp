@@ -105,15 +105,52 @@ TEST(FlowBenchFit, FindsTheForcesInNewtonsFromVoltageAndMotionAlone) {
 TEST(FlowBenchFit, KeepsASpringThatAForceBenchMeasured) {
   const recording::Recording dry = strokes({0, 0}, true);
   const recording::Recording metering = strokes({5e5, 4e6}, true);
-  SpringFit spring{};
+  MeasuredForces measured;
+  SpringFit& spring = measured.spring.emplace();
   spring.spring.curve.axis = {0, driven_stroke_m / (sensor::spring_positions - 1),
                               (sensor::spring_positions - 1) / driven_stroke_m};
   for (int k = 0; k < sensor::spring_positions; ++k)
     spring.spring.curve.values[static_cast<std::size_t>(k)] = spring_at(spring.spring.curve.axis.at(k));
-  const FlowBenchFit fit = fit_flow_bench({{&dry}, {&metering}, {}}, {nullptr, &spring}, driven_stroke_m);
+  const FlowBenchFit fit = fit_flow_bench({{&dry}, {&metering}, {}}, measured, driven_stroke_m);
   for (int k = 2; k + 2 < fit.layout.spring.count; ++k)
     EXPECT_NEAR(fit.forces.unknowns(fit.layout.spring_at(k)),
                 spring_at(driven_stroke_m * k / (fit.layout.spring.count - 1)), 0.4);
+}
+
+/// What an axial-force rig whose load cell shows `factor` times the force measures.
+AxialForceFit axial_force(double factor, double oil_temperature_K) {
+  AxialForceFit out{{}, oil_temperature_K, {}, {}};
+  for (const double pressure_Pa : {1e6, 3e6, 6e6}) {
+    model::AxialForceLoop& loop = out.loops.emplace_back();
+    for (int k = 0; k < sensor::flow_map_positions; ++k) {
+      const double x = driven_stroke_m * k / (sensor::flow_map_positions - 1);
+      loop.position_m.push_back(x);
+      loop.opening_N.push_back(factor * (spring_at(x) + flow_force_at(x, pressure_Pa) + friction_at(x, pressure_Pa)));
+      loop.closing_N.push_back(factor * (spring_at(x) + flow_force_at(x, pressure_Pa) - friction_at(x, pressure_Pa)));
+      loop.pressure_difference_Pa.push_back(pressure_Pa);
+      loop.flow_m3_per_s.push_back(1e-7 * x / driven_stroke_m * std::sqrt(pressure_Pa));
+    }
+  }
+  return out;
+}
+
+TEST(FlowBenchFit, TakesTheScaleOfAllForcesFromOneThatWasMeasured) {
+  const recording::Recording dry = strokes({0, 0}, true);
+  const recording::Recording metering = strokes({5e5, 2e6, 4e6, 6e6}, true);
+  constexpr double factor = 1.1;
+  MeasuredForces measured;
+  measured.axial = {axial_force(factor, 343.15)};  // at another oil temperature
+  const FlowBenchFit fit = fit_flow_bench({{&dry}, {&metering}, {}}, measured, driven_stroke_m);
+  ASSERT_EQ(fit.layout.layers(), 2);
+  for (const int k : {12, 20, 28}) {
+    const double x = driven_stroke_m * k / (fit.layout.force.count - 1);
+    for (const int layer : {0, 1})
+      EXPECT_NEAR(fit.forces.unknowns(fit.layout.force_at(layer, k)), factor * 1e5 * flow_force_at(x, 1),
+                  0.03 * 1e5 * flow_force_at(x, 1))
+          << layer << ", " << x;
+    const double current_A = std::sqrt(spring_at(x) / force_per_A2);
+    EXPECT_NEAR(fit.magnetic_force.at(current_A, x).value, factor * spring_at(x), 0.03 * spring_at(x)) << x;
+  }
 }
 
 TEST(FlowBenchFit, WithoutTheCoilsVoltageAsksForItOrForAForceMap) {
@@ -125,6 +162,14 @@ TEST(FlowBenchFit, WithoutTheCoilsVoltageAsksForItOrForAForceMap) {
   } catch (const CalibrationError& error) {
     EXPECT_THAT(error.what(), HasSubstr("give \"voltage\""));
   }
+}
+
+TEST(FlowBenchFit, LeavesOutSamplesUnderDitherWhichHidesFriction) {
+  recording::Recording run = strokes({4e6}, true);
+  EXPECT_GT(track_run(run, driven_stroke_m, true).sliding.size(), 1000U);
+  for (std::size_t k = 0; k < run.size(); ++k)
+    run.column(Channel::current)[k] += 0.1 * std::sin(2 * 3.14159265 * 100 * run.column(Channel::time)[k] + 0.4);
+  EXPECT_LT(track_run(run, driven_stroke_m, true).sliding.size(), 20U);
 }
 
 TEST(FlowBenchFit, RefusesAValveThatHardlyMoves) {

@@ -284,6 +284,22 @@ TEST(CalibrationReport, IsOneWellFormedPage) {
   EXPECT_EQ(unbalanced_markup(empty.str()), "");
 }
 
+TEST(CalibrationReport, SaysWhichQuantitiesWereMeasuredInferredAndAssumed) {
+  model::Model model = small_model();
+  std::ostringstream silent;
+  write_calibration_report(silent, model);
+  EXPECT_THAT(silent.str(), Not(HasSubstr("measured, inferred, assumed")));
+  model.provenance.quantities = {{"b", "scale of all forces", "inferred", "coenergy", "1", 0.17},
+                                 {"b", "spring force", "inferred", "strokes", "N", 0.4},
+                                 {"b", "moving mass", "assumed", "as usual", "1"}};
+  std::ostringstream out;
+  write_calibration_report(out, model);
+  EXPECT_EQ(unbalanced_markup(out.str()), "");
+  EXPECT_THAT(out.str(), HasSubstr("their common scale within 17 %"));
+  expect_in_order(out.str(), {"What was measured, inferred, assumed", "scale of all forces", "17 %", "spring force",
+                              "inferred", "0.400 N", "moving mass", "assumed", "not known"});
+}
+
 TEST(MetricsJson, HoldsTheFiguresUnderTheirDocumentedKeys) {
   std::ostringstream out;
   write_metrics(out, small_model(), one_run(1000, 5));
