@@ -183,8 +183,7 @@ double scale_uncertainty(const EquivalentBenches& benches, const FlowBenchFit& f
     const Eigen::Index middle = fit.layout.map_at(fit.layout.currents.count / 2, fit.layout.places.count / 2);
     return 2 * std::sqrt(std::max(0.0, fit.forces.covariance(middle, middle)));
   }
-  constexpr double without_flow = 0.3;  // as far as coenergy was found wrong on valves of the rig
-  if (benches.known.empty()) return without_flow;
+  if (benches.known.empty()) return coenergy_scale_95;
   return std::abs(benches.known.back().parameters.back().value - 1) + jet_force_95;
 }
 

@@ -237,6 +237,7 @@ FlowBenchFit fit_flow_bench(const FlowBenchRecordings& recordings, const Measure
       0};
   ForcePriors priors;
   priors.measured = at_knots(measured, out.layout);
+  if (!priors.measured.empty()) priors.map_share = coenergy_scale_95;
   if (measured.actuator) {
     fit_with_actuator(out, priors, *measured.actuator, runs);
   } else {

@@ -10,6 +10,9 @@ namespace spoolflow::calibration {
 /// Oil temperatures that are no further apart are one.
 inline constexpr double same_oil_K = 3;
 
+/// By what share coenergy was found wrong on valves of the rig at most. Without a force rig the fit keeps its scale.
+inline constexpr double coenergy_scale_95 = 0.3;
+
 struct FlowBenchFit {
   ForceLayout layout;
   ForceSolution forces;

@@ -151,8 +151,7 @@ void add_priors(Equations& to, const ForceLayout& l, const ForcePriors& priors) 
   }
 }
 
-void add_measured(Equations& to, const ForceLayout& l, const std::vector<MeasuredForce>& measured) {
-  constexpr double deviation_N = 0.1;
+void add_measured(Equations& to, const ForceLayout& l, const std::vector<MeasuredForce>& measured, double deviation_N) {
   for (const MeasuredForce& each : measured) {
     const Knots::Place s = l.spring.at(each.position_m);
     Row row{{l.spring_at(s.lower), 1 - s.share}, {l.spring_at(s.lower + 1), s.share}};
@@ -194,10 +193,11 @@ ForceSolution solve_forces(const ForceLayout& layout, const ForcePriors& priors,
   for (int round = before.size() == 0 ? 0 : 1; round < rounds; ++round) {
     Equations equations(layout.unknowns());
     add_priors(equations, layout, priors);
-    add_measured(equations, layout, priors.measured);
+    const double deviation_N = out.residual_N * std::sqrt(samples_alike);
+    add_measured(equations, layout, priors.measured, deviation_N);
     for (const Equation& each : all) {
       const double away = out.unknowns.size() == 0 ? 0 : deviation_of(each, out.unknowns) / (3 * out.residual_N);
-      equations.add(each.row, each.right, out.residual_N * std::sqrt(samples_alike * (1 + away * away)));
+      equations.add(each.row, each.right, deviation_N * std::sqrt(1 + away * away));
     }
     out.covariance = equations.inverse();
     out.unknowns = out.covariance * equations.right();

@@ -55,14 +55,14 @@ struct ForceLayout {
   [[nodiscard]] int unknowns() const { return coil_at(coil_sizes); }
 };
 
-/// A force rig held the spool there: spring and flow force, mean of both directions.
+/// A force rig moved the spool there: spring and flow force, mean of both directions. It counts as a sliding sample.
 struct MeasuredForce {
   double position_m, pressure_difference_Pa, oil_temperature_K, force_N;
 };
 
 /// What is known beforehand.
 struct ForcePriors {
-  double map_share = 0.08;  ///< by which the coenergy's force may be wrong as a whole
+  double map_share = 0.08;  ///< by which the coenergy's force may be wrong at a knot
   double map_bend = 0.01;   ///< by which its share may bend from knot to knot
   CoilSizes coil{}, coil_deviation{};
   std::vector<MeasuredForce> measured{};
