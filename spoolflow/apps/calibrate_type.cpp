@@ -20,15 +20,14 @@ namespace {
 void print_type(const calibration::SeveralUnits& compared, const calibration::Deviations& tolerances) {
   say("  {:<18} {:>10} {:>10}   from the middle\n", "between units", "tolerance", "spread");
   for (std::size_t k = 0; k < calibration::variations; ++k) {
-    constexpr double percent = 100, um_per_m = 1e6;
     const calibration::VariationAbout& about = calibration::all_variations()[k];
-    const double scale = about.unit == "m" ? um_per_m : percent;
+    const auto [scale, unit_name] = calibration::written_unit(about.unit);
     const auto row = static_cast<Eigen::Index>(k);
     std::string units;
     for (const calibration::MeasuredUnit& unit : compared.units)
       units += fmt::format(" {:+.2g}", scale * unit.deviations[k]);
     say("  {:<18} {:>10.3g} {:>10.3g} {:<2}{}\n", about.name, scale * tolerances[k],
-        scale * std::sqrt(compared.next.covariance(row, row)), about.unit == "m" ? "um" : "%", units);
+        scale * std::sqrt(compared.next.covariance(row, row)), unit_name, units);
   }
   for (const calibration::MeasuredUnit& unit : compared.units)
     say("  {}: {:.2g} N of its balance of forces are explained by none of them\n", unit.name, unit.force_left_N);

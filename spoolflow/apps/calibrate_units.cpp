@@ -1,5 +1,6 @@
 #include "spoolflow/apps/calibrate_units.hpp"
 
+#include <cmath>
 #include <memory>
 
 #include <fmt/format.h>
@@ -17,23 +18,12 @@
 namespace spoolflow::apps {
 namespace {
 
-/// How a deviation is printed: lengths in micrometre, all else in percent.
-struct PrintedUnit {
-  double scale;
-  const char* name;
-};
-
-PrintedUnit printed_unit(const std::string& unit) {
-  constexpr double percent = 100, um_per_m = 1e6;
-  return unit == "m" ? PrintedUnit{um_per_m, "um"} : PrintedUnit{percent, "%"};
-}
-
 /// What each parameter was known to, is, and is known to.
 void print_unit(const calibration::UnitCalibration& unit) {
   say("{}: a unit of {}\n", unit.model.valve.name, unit.model.type->name);
   say("  {:<18} {:>10} {:>10} {:>10}\n", "against the type", "tolerance", "is", "known to");
   for (const calibration::UnitParameter& parameter : unit.parameters) {
-    const auto [scale, unit_name] = printed_unit(parameter.unit);
+    const auto [scale, unit_name] = calibration::written_unit(parameter.unit);
     say("  {:<18} {:>10.3g} {:>+10.3g} {:>10.3g} {}{}\n", parameter.name, parameter.tolerance * scale,
         parameter.value * scale, parameter.uncertainty * scale, unit_name,
         parameter.marginal ? fmt::format("  <- AT THE TYPE'S EDGE, {:.1f} standard deviations", parameter.deviations)
@@ -47,16 +37,18 @@ void print_series(const calibration::Series& series) {
   say("{} units, {} refused\n", series.units.size(), series.refused());
   say("  {:<18} {:>10} {:>10} {:>10} {:>6}\n", "between units", "tolerance", "spread", "mean", "Cpk");
   for (const calibration::SeriesParameter& each : series.parameters) {
-    const auto [scale, unit_name] = printed_unit(each.unit);
+    const auto [scale, unit_name] = calibration::written_unit(each.unit);
     if (each.seen == 0) {
       say("  {:<18} {:>10.3g} {:>10} {:>10} {:>6} {}  shown by no unit\n", each.name, scale * each.tolerance, "-", "-",
           "-", unit_name);
       continue;
     }
-    say("  {:<18} {:>10.3g} {:>10.3g} {:>+10.3g} {:>6.2f} {}{}\n", each.name, scale * each.tolerance,
-        scale * each.spread, scale * each.mean, each.capability, unit_name,
+    say("  {:<18} {:>10.3g} {:>10.3g} {:>+10.3g} {:>6} {}{}\n", each.name, scale * each.tolerance, scale * each.spread,
+        scale * each.mean, std::isnan(each.capability) ? "-" : fmt::format("{:.2f}", each.capability), unit_name,
         each.drifts ? fmt::format("  <- DRIFTS, {:+.3g} over 100 units", 100 * scale * each.drift_per_serial) : "");
   }
+  if (series.units.size() - series.refused() < calibration::least_for_capability)
+    say("  Cpk from {} units of the type on: fewer do not show it\n", calibration::least_for_capability);
 }
 
 calibration::UnitCalibration calibrate_unit(const CalibrateArguments& arguments, const CalibrationTask& task,

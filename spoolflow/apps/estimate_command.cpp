@@ -16,6 +16,7 @@
 #include "spoolflow/apps/terminal/output_file.hpp"
 #include "spoolflow/apps/terminal/suggestion.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
+#include "spoolflow/apps/type_note.hpp"
 #include "spoolflow/apps/work/reading_notes.hpp"
 #include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/recording/open_table.hpp"
@@ -91,6 +92,7 @@ void estimate(const EstimateArguments& arguments) {
   for (const std::string& recording : arguments.recordings) roles.push_back({recording, FileKind::recording});
   refuse_other_kinds("estimate", roles);
   EstimateTask task = estimate_task(arguments);
+  say_of_type(task.model, arguments.model, arguments.quiet);
   std::optional<OutputFile> summary_file;
   if (!arguments.json.empty()) summary_file.emplace(arguments.json, task.inputs);
   std::vector<validation::EstimateSummary> summaries;

@@ -16,6 +16,7 @@
 #include "spoolflow/apps/terminal/suggestion.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
+#include "spoolflow/apps/type_note.hpp"
 #include "spoolflow/apps/work/corrected_model.hpp"
 #include "spoolflow/apps/work/monitored_recording.hpp"
 #include "spoolflow/report/json/monitor_json.hpp"
@@ -58,6 +59,7 @@ void refuse_other_kinds(const MonitorArguments& arguments) {
 void monitor_recordings(const MonitorArguments& arguments) {
   refuse_other_kinds(arguments);
   const model::Model model = model::read_model(arguments.model);
+  say_of_type(model, arguments.model, arguments.quiet);
   recording::ChannelMap channels;
   std::vector<std::filesystem::path> inputs(arguments.recordings.begin(), arguments.recordings.end());
   inputs.emplace_back(arguments.model);

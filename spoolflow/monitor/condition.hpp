@@ -62,10 +62,10 @@ struct Indicator {
   double baseline;        ///< what it is compared with: learnt, or the model's
   IndicatorState state;
   Trend trend = {};
+  double spread = 0;  ///< one standard deviation of healthy valves about `baseline`, >= 0; 0: not judged by it
 };
 
-/// Limits of valves without a baseline of their own: so many spreads of healthy valves are no change: the charts count
-/// what lies beyond.
+/// So many spreads of healthy valves are no change: the charts count what lies beyond.
 inline constexpr double tolerated_spreads = 1.5;
 
 /// A winding is no warmer than this over calibration, or over what the valve itself showed [K]; with copper's 0.39 %
@@ -77,7 +77,8 @@ inline constexpr double hottest_over_baseline_K = 60;
 struct AlarmLimits {
   double below, above;
 };
-/// Of an indicator by its name and what it is compared with. Faults go one way, the position's zero drifts either.
+/// Of an indicator by its name, what it is compared with and how healthy valves spread. Faults go one way, the
+/// position's zero drifts either.
 [[nodiscard]] AlarmLimits alarm_limits(const Indicator& indicator);
 
 }  // namespace spoolflow::monitor

@@ -289,13 +289,13 @@ bool decided(const DirectionState& state, const Isolation& found) {
   return raised(state) && (likeliest > least_reported_odds || found.unexplained_odds >= 1);
 }
 
-DirectionBaseline baseline_of(const DirectionReference& /*reference*/, const DirectionState& state) {
+DirectionBaseline baseline_of(const DirectionReference& reference, const DirectionState& state) {
   constexpr double share_left = 0.3;  // of the healthy spread: the same maps and signatures are wrong the same way
   DirectionBaseline out;
   const Evidence evidence = evidence_of(state.learnt);
   MagnitudeMatrix factor = evidence.information;
   for (std::size_t k = 0; k < magnitudes; ++k)
-    factor[k * magnitudes + k] += 1 / (healthy_spread[k] * healthy_spread[k]);
+    factor[k * magnitudes + k] += 1 / (reference.healthy[k] * reference.healthy[k]);
   if (factorise(factor, magnitudes)) {
     out.centre = evidence.pull;
     solve_in_place(factor, magnitudes, out.centre);

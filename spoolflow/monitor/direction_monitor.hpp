@@ -49,7 +49,8 @@ static_assert(std::is_trivially_copyable_v<DirectionState>);
 struct DirectionReference {
   const sensor::ObserverParameters<double>* valve = nullptr;
   double stroke_m = 0;
-  bool whole = false;  ///< springs of both ends centre the spool: it rests in the centre, at no stop
+  bool whole = false;                   ///< springs of both ends centre the spool: it rests in the centre, at no stop
+  Magnitudes healthy = healthy_spread;  ///< of valves such as it about their models
   DirectionBaseline baseline;
 };
 

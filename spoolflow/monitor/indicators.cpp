@@ -57,11 +57,10 @@ Trend trend_of(const DirectionReference& reference, const DirectionState& side, 
 AlarmLimits alarm_limits(const Indicator& indicator) {
   for (const InItsUnit& each : in_its_unit) {
     if (indicator.name != each.names.b && indicator.name != each.names.a) continue;
-    const std::size_t k = index(each.magnitude);
-    const double unit = each.factor * usual_fault[k], tolerated = unit * tolerated_spreads * healthy_spread[k];
+    const double tolerated = each.factor * tolerated_spreads * indicator.spread;
     const double beyond = indicator.baseline + tolerated;
     if (each.magnitude == Magnitude::position_zero) return {indicator.baseline - tolerated, beyond};
-    return unit > 0 ? AlarmLimits{unknown, beyond} : AlarmLimits{beyond, unknown};
+    return each.factor > 0 ? AlarmLimits{unknown, beyond} : AlarmLimits{beyond, unknown};
   }
   if (indicator.name.starts_with("coil_resistance"))
     return {unknown, indicator.baseline * (1 + copper_per_K * hottest_over_calibration_K)};
@@ -86,7 +85,8 @@ void add_magnitudes(const DirectionReference& reference, const DirectionState& s
                                                                 : IndicatorState::good;
     out.push_back({each.names.of(a), known ? each.at_zero + unit * found.value[k] : unknown, each.unit,
                    known ? 2 * std::abs(unit) * found.deviation[k] : unknown,
-                   each.at_zero + unit * reference.baseline.centre[k], state, trend_of(reference, side, each)});
+                   each.at_zero + unit * reference.baseline.centre[k], state, trend_of(reference, side, each),
+                   std::abs(unit) * reference.baseline.spread[k]});
   }
 }
 

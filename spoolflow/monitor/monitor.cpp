@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "spoolflow/monitor/healthy_spread.hpp"
 #include "spoolflow/monitor/indicators.hpp"
 #include "spoolflow/numerics/number_check.hpp"
 
@@ -49,7 +50,8 @@ Monitor::Monitor(const model::Model& model, const Options& options, const std::o
     reference_[k].valve = &parameters(model, k == 1);
     reference_[k].stroke_m = model.valve.stroke_m;
     reference_[k].whole = model.whole();
-    if (baseline) reference_[k].baseline = baseline->side[k];
+    reference_[k].healthy = healthy_spread_of(model);
+    reference_[k].baseline = baseline ? baseline->side[k] : DirectionBaseline{.spread = reference_[k].healthy};
   }
   if (baseline) {
     dither_amplitude_A_ = baseline->dither_amplitude_A;

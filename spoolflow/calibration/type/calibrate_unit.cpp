@@ -39,11 +39,9 @@ std::vector<UnitParameter> compared(const UnitFit& fit, const KnownDeviations& t
 }
 
 std::string written(const UnitParameter& parameter) {
-  constexpr double percent = 100, um_per_m = 1e6;
-  const bool length = parameter.unit == "m";
-  return fmt::format("{} {:+.3g} {} ({:.1f} standard deviations)", parameter.name,
-                     parameter.value * (length ? um_per_m : percent), length ? "um" : "%",
-                     std::abs(parameter.deviations));
+  const WrittenUnit unit = written_unit(parameter.unit);
+  return fmt::format("{} {:+.3g} {} ({:.1f} standard deviations)", parameter.name, unit.scale * parameter.value,
+                     unit.name, std::abs(parameter.deviations));
 }
 
 /// The worst first, up to four.

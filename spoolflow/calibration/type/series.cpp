@@ -69,7 +69,8 @@ SeriesParameter parameter_of(const Series& series, const std::vector<const Serie
   out.mean = population.of.mean(row);
   out.spread = std::sqrt(population.of.covariance(row, row));
   out.mean_uncertainty = std::sqrt(population.open(row, row));
-  out.capability = (capability_deviations * tolerance - std::abs(out.mean - type.mean(row))) / (3 * out.spread);
+  if (of_type.size() >= least_for_capability)
+    out.capability = (capability_deviations * tolerance - std::abs(out.mean - type.mean(row))) / (3 * out.spread);
   if (of_type.size() < least_for_drift) return out;
   const Slope slope = slope_of(of_type, k);
   out.drift_per_serial = slope.per_serial;

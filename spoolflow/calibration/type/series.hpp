@@ -27,13 +27,17 @@ struct SeriesParameter {
   double mean, spread;     ///< between units: what each one's recordings leave open is taken out of the spread
   double mean_uncertainty;
   std::size_t seen;         ///< units whose recordings show it
-  double capability;        ///< Cpk against `capability_deviations` tolerances to either side; NaN: not seen
+  double capability;        ///< Cpk against `capability_deviations` tolerances to either side; NaN: fewer than
+                            ///< `least_for_capability` units, or not seen
   double drift_per_serial;  ///< slope over serial numbers; NaN: fewer than `least_for_drift` units, or not seen
   double drift_deviations;  ///< that slope over its standard uncertainty
   bool drifts;              ///< beyond `drifting_deviations`
 };
 /// Units at these limits, so many tolerances from the type, are at its edge.
 inline constexpr double capability_deviations = marginal_deviations;
+/// Of so many units Cpk is known to a third (Bissell, Applied Statistics 39, 1990); of fewer it says more of the type's
+/// tolerances, which count as units, than of these.
+inline constexpr std::size_t least_for_capability = 25;
 inline constexpr std::size_t least_for_drift = 8;
 /// Of fifteen directions without drift, one series in a hundred shows a slope beyond that in any.
 inline constexpr double drifting_deviations = 4;

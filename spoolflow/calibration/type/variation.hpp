@@ -39,6 +39,16 @@ struct VariationAbout {
 };
 
 [[nodiscard]] const std::array<VariationAbout, variations>& all_variations();
+
+/// How people write a deviation whose unit is "1" or "m": in percent or micrometres.
+struct WrittenUnit {
+  double scale;           ///< times the deviation
+  std::string_view name;  ///< "%" or "um"
+};
+[[nodiscard]] constexpr WrittenUnit written_unit(std::string_view unit) {
+  return unit == "m" ? WrittenUnit{1e6, "um"} : WrittenUnit{1e2, "%"};
+}
+
 [[nodiscard]] constexpr std::size_t at(Variation variation) {
   return static_cast<std::size_t>(variation);
 }

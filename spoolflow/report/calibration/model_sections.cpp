@@ -117,7 +117,10 @@ std::string origin_of(const model::Model& model) {
 }
 
 Text headline_of(const model::Model& model) {
-  return phrase("full scale {}{}", three_digits(units::flow(model.valve.rated_flow_m3_per_s)),
+  const std::string type = !model.type        ? ""
+                           : model.type->unit ? fmt::format("; a unit of the type {}", model.type->name)
+                                              : "; of no unit: the model of the type, whose band holds all its units";
+  return phrase("full scale {}{}{}", three_digits(units::flow(model.valve.rated_flow_m3_per_s)), type,
                 model.provenance.simulated ? "; simulated: calibrated with recordings of the virtual test rig" : "");
 }
 

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "spoolflow/report/json/type_json.hpp"
 #include "spoolflow/report/validation/verdict.hpp"
 #include "spoolflow/units/conversion.hpp"
 
@@ -263,6 +264,7 @@ void write_metrics(std::ostream& out, const model::Model& model, const validatio
   if (!validation.limits.empty()) file["requirements"] = requirements(validation);
   for (const validation::PooledResult& pooled : validation.pooled) file["all_runs"].push_back(json.pooled(pooled));
   for (const validation::RunResult& run : validation.runs) file["runs"].push_back(json.run(run));
+  add_type(file, model);
   out << file.dump(1) << '\n';
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "spoolflow/monitor/baseline_json.hpp"
+#include "spoolflow/report/json/type_json.hpp"
 
 namespace spoolflow::report {
 namespace {
@@ -69,6 +70,7 @@ void write_monitor_json(std::ostream& out, const model::Model& model, const moni
               {"band_factor", doubt.sensor_m3_per_s > 0 ? doubt.widened_m3_per_s / doubt.sensor_m3_per_s : 1.0}}},
             {"runs", each},
             {"baseline", Json::parse(monitor::baseline_text(watch.learnt()))}};
+  add_type(json, model);
   out << json.dump(1) << '\n';
 }
 

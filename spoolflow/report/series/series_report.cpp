@@ -18,18 +18,16 @@ using calibration::SeriesParameter;
 using calibration::SeriesUnit;
 using calibration::UnitParameter;
 
-constexpr double percent = 100, um_per_m = 1e6;
-
 std::string readable(std::string name) {
   std::ranges::replace(name, '_', ' ');
   return name;
 }
 
 double scale_of(const std::string& unit) {
-  return unit == "m" ? um_per_m : percent;
+  return calibration::written_unit(unit).scale;
 }
 const char* unit_of(const std::string& unit) {
-  return unit == "m" ? "µm" : "%";
+  return calibration::written_unit(unit).name == "um" ? "µm" : "%";
 }
 
 std::string names_of(const std::vector<std::string>& names) {
@@ -108,6 +106,8 @@ Panel panel_of(const Series& series, std::size_t k) {
   Mark of_type{.shape = Shape::dots, .tone = "observer", .name = "unit of the type", .width_px = 4};
   Mark foreign{.shape = Shape::dots, .tone = "c", .name = "refused", .width_px = 5};
   Mark open{.shape = Shape::area, .tone = "soft", .name = "standard uncertainty", .width_px = 0};
+  const double first = series.units.front().serial, last = series.units.back().serial;
+  const double bar = std::min(0.3, 0.006 * (1 + last - first));
   double reach = 1.2 * limit;
   for (const SeriesUnit& unit : series.units) {
     const UnitParameter& parameter = unit.parameters[k];
@@ -116,13 +116,14 @@ Panel panel_of(const Series& series, std::size_t k) {
     mark.y.push_back(scale * parameter.value);
     reach = std::max(reach, 1.1 * scale * std::abs(parameter.value));
     if (!unit.refusal.empty()) continue;
-    open.x.push_back(unit.serial);
-    open.y.push_back(scale * (parameter.value - parameter.uncertainty));
-    open.y_upper.push_back(scale * (parameter.value + parameter.uncertainty));
+    const double below = scale * (parameter.value - parameter.uncertainty),
+                 above = scale * (parameter.value + parameter.uncertainty);
+    open.x.insert(open.x.end(), {unit.serial - bar, unit.serial + bar, unit.serial + bar});
+    open.y.insert(open.y.end(), {below, below, NAN});  // a bar of its own
+    open.y_upper.insert(open.y_upper.end(), {above, above, NAN});
   }
   out.lowest = -reach;
   out.highest = reach;
-  const double first = series.units.front().serial, last = series.units.back().serial;
   out.marks.push_back(std::move(open));
   for (const double side : {-limit, limit})
     out.marks.push_back({.shape = Shape::dashed,
@@ -152,8 +153,8 @@ CaptionedFigure course_figure(const Series& series) {
     if (series.parameters[k].seen > 0 || !series.population) out.figure.panels.push_back(panel_of(series, k));
   }
   out.caption =
-      "Each dot is a unit's deviation from the type, the area what its own recordings leave open of it (one standard "
-      "deviation); dashed: three tolerances. Directions that no recording shows are left out.";
+      "Each dot is a unit's deviation from the type, the bar what its own recordings leave open of it (one standard "
+      "deviation to either side); dashed: three tolerances. Directions that no recording shows are left out.";
   return out;
 }
 
@@ -205,10 +206,11 @@ void write_series_report(std::ostream& out, const Series& series, const std::str
       "Tolerance, spread: one standard deviation between units, as the type has it and as these units are; what each "
       "unit's recordings leave open is taken out, and the type counts as {:g} units. Cpk: distance of the mean "
       "from "
-      "{:g} tolerances over three spreads; 1 and more is capable. Drift: slope over serial numbers, from {} units on, "
+      "{:g} tolerances over three spreads, from {} units on, for fewer do not show it; 1 and more is capable. Drift: "
+      "slope over serial numbers, from {} units on, "
       "marked beyond {:g} standard uncertainties of it. Refused units count in none of these.",
-      calibration::tolerances_as_units, calibration::capability_deviations, calibration::least_for_drift,
-      calibration::drifting_deviations));
+      calibration::tolerances_as_units, calibration::capability_deviations, calibration::least_for_capability,
+      calibration::least_for_drift, calibration::drifting_deviations));
   page.section("Over the serial numbers");
   page.figure(course_figure(series));
   show_outliers(page, series);

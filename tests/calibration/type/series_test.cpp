@@ -78,6 +78,18 @@ TEST(Series, CapabilityIsBelowOneWhereUnitsSpreadBeyondTheirTolerance) {
   EXPECT_GT(of(Variation::permeance).capability, 1.4);
 }
 
+TEST(Series, CapabilityOfFewUnitsIsNotKnown) {
+  std::vector<SeriesUnit> units = fifty();
+  units.resize(least_for_capability);
+  EXPECT_FALSE(std::isnan(compare_series(series_type(), "type.json", units).parameters.front().capability));
+  units.pop_back();
+  const Series few = compare_series(series_type(), "type.json", units);
+  for (const SeriesParameter& each : few.parameters) {
+    EXPECT_TRUE(std::isnan(each.capability)) << each.name;
+    EXPECT_FALSE(std::isnan(each.spread)) << each.name;
+  }
+}
+
 TEST(Series, ASpringThatWeakensFromUnitToUnitDriftsAndNothingElseDoes) {
   for (const SeriesParameter& each : series().parameters)
     EXPECT_EQ(each.drifts, each.name == "spring_preload") << each.name;

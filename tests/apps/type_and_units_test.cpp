@@ -1,0 +1,111 @@
+/// A type's units by the command: series page, updated type, plan, and what else takes their models.
+#include <fstream>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "spoolflow/calibration/type/type_model.hpp"
+#include "tests/apps/command_line.hpp"
+#include "tests/calibration/type/virtual_unit.hpp"
+
+namespace spoolflow::apps {
+namespace {
+
+using calibration::Variation;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class TypeAndUnits : public CommandLine {
+ protected:
+  void SetUp() override {
+    CommandLine::SetUp();
+    model::Model valve = model::read_model(SPOOLFLOW_EXAMPLE_MODEL);
+    valve.observer->parameters.position_sensor.drift_m_per_K = 0;  // the virtual units' positions have none
+    type_ = calibration::type_model(std::move(valve), calibration::tolerances_from({}));
+    std::ofstream out(folder / "type.json");
+    model::write_model(out, type_);
+  }
+  /// units/NAME, one stroke with meter and pressure difference.
+  void record(const std::string& name, const calibration::Deviations& deviations) const {
+    const std::filesystem::path of_unit = folder / "units" / name;
+    std::filesystem::create_directories(of_unit);
+    std::ofstream(of_unit / "unit.toml") << fmt::format(
+        "name = \"NG6 serial {}\"\n[[recording]]\nprotocol = \"operation\"\nfile = \"stroke.csv\"\n", name);
+    constexpr double way_s = 2;
+    calibration::write_strokes(of_unit / "stroke.csv",
+                               calibration::unit_parameters(type_.observer->parameters, deviations), {40},
+                               type_.valve.stroke_m, way_s);
+  }
+  void record_series() const {
+    calibration::Deviations deviations{};
+    for (const int serial : {11, 12, 13}) {
+      deviations[at(Variation::spring_preload)] = 0.01 * (serial - 12);
+      record(std::to_string(serial), deviations);
+    }
+    deviations[at(Variation::spring_rate)] = 0.25;
+    record("14", deviations);
+  }
+
+ private:
+  model::Model type_;
+};
+
+TEST_F(TypeAndUnits, ASeriesHasItsPageAndUpdatesItsType) {
+  record_series();
+  const Answer series =
+      run("calibrate --type type.json units/11/unit.toml units/12/unit.toml units/13/unit.toml units/14/unit.toml "
+          "-o models --report series.html --update-type next.json");
+  EXPECT_EQ(series.status, 2);  // of the one that is refused
+  EXPECT_THAT(series.message, AllOf(HasSubstr("the unit is not of the type"), HasSubstr("spring_rate +"),
+                                    HasSubstr("4 units, 1 refused"), HasSubstr("Cpk from 25 units of the type on")));
+  EXPECT_TRUE(std::filesystem::exists(folder / "models/13.json"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "models/14.json"));
+  const std::string page = content("series.html");
+  for (const char* text : {"3 of 4 units are of the type", "1 refused: no model was written", "spring preload",
+                           "NG6 serial 14", "from 25 units on", "</html>"})
+    EXPECT_THAT(page, HasSubstr(text));
+  EXPECT_THAT(page, Not(HasSubstr("NG6 serial 12")));  // none of the outliers
+
+  const Answer plan = run("plan next.json --seconds 14 -o plan.csv --scenario plan.toml");
+  ASSERT_EQ(plan.status, 0) << plan.message;
+  EXPECT_THAT(plan.message, HasSubstr("the sensor's band"));
+  EXPECT_THAT(content("plan.csv"),
+              HasSubstr("time_s,position_set_percent,pressure_difference_set_bar,dither_A\n0.00,"));
+  const Answer simulated = run("simulate plan.toml -o run.csv -q");
+  ASSERT_EQ(simulated.status, 0) << simulated.message;
+
+  const Answer by_type = run("estimate next.json run.csv -o flow.csv");
+  EXPECT_EQ(by_type.status, 0) << by_type.message;
+  EXPECT_THAT(by_type.message, HasSubstr("calibrate UNIT.toml --type next.json -o UNIT.json"));
+  EXPECT_THAT(run("estimate models/12.json run.csv -o flow.csv").message, Not(HasSubstr("--type")));
+}
+
+TEST_F(TypeAndUnits, AUnitsModelIsTakenByMonitorValidateAndFlashPagesAsAnyValves) {
+  record("12", {});
+  ASSERT_EQ(run("calibrate units/12/unit.toml --type type.json -o unit.json -q").status, 0);
+  ASSERT_EQ(run("monitor unit.json units/12/stroke.csv --json unit_condition.json -q").status, 0);
+  EXPECT_THAT(content("unit_condition.json"), HasSubstr("\"of\": \"unit\""));
+  const Answer by_type = run("validate type.json units/12/stroke.csv --json figures.json --report page.html");
+  ASSERT_EQ(by_type.status, 0) << by_type.message;
+  EXPECT_THAT(by_type.message, HasSubstr("the model of the type"));
+  EXPECT_THAT(content("figures.json"), HasSubstr("\"of\": \"type\""));
+  EXPECT_THAT(content("page.html"), HasSubstr("the model of the type, whose band holds all its units"));
+  ASSERT_EQ(run("export parameters unit.json -o unit.bin").status, 0);
+  EXPECT_THAT(run("inspect unit.bin").output, HasSubstr("NG6 serial 12"));
+}
+
+TEST_F(TypeAndUnits, AReportOrAnUpdateOfFewerThanThreeUnitsIsRefusedAndNothingIsWritten) {
+  for (const char* option : {"--report series.html", "--update-type next.json"}) {
+    const Answer answer =
+        run(std::string("calibrate --type type.json units/1/unit.toml units/2/unit.toml -o models ") + option);
+    EXPECT_EQ(answer.status, 2);
+    EXPECT_THAT(answer.message, HasSubstr("a series of 3 units and more, and 2 are given"));
+    EXPECT_THAT(files(), Not(Contains("models")));
+  }
+}
+
+}  // namespace
+}  // namespace spoolflow::apps
