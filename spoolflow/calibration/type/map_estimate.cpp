@@ -1,6 +1,7 @@
 #include "spoolflow/calibration/type/map_estimate.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -12,12 +13,16 @@ namespace spoolflow::calibration {
 namespace {
 
 constexpr auto unknowns = static_cast<Eigen::Index>(unit_unknowns);
+constexpr std::array<double, unit_unknowns - variations> beside_deviations{
+    meter_gain_uncertainty, ageing_uncertainty, unloaded_friction_uncertainty_N, conductance_tilt_uncertainty};
 
 UnitUnknowns unknowns_from(const Eigen::VectorXd& x) {
   UnitUnknowns out;
   for (std::size_t k = 0; k < variations; ++k) out.deviations[k] = x(static_cast<Eigen::Index>(k));
   out.meter_gain = x(deviating);
   out.ageing = x(deviating + 1);
+  out.unloaded_friction_N = x(deviating + 2);
+  out.conductance_tilt = x(deviating + 3);
   return out;
 }
 
@@ -42,8 +47,8 @@ struct Prior {
         precision(Eigen::MatrixXd::Zero(unknowns, unknowns)) {
     mean.head(deviating) = known.mean;
     deviation.head(deviating) = known.covariance.diagonal().cwiseSqrt();
-    deviation(deviating) = meter_gain_uncertainty;
-    deviation(deviating + 1) = ageing_uncertainty;
+    for (Eigen::Index k = deviating; k < unknowns; ++k)
+      deviation(k) = beside_deviations[static_cast<std::size_t>(k - deviating)];
     precision.topLeftCorner(deviating, deviating) = inverse_of_covariance(known.covariance);
     for (Eigen::Index k = deviating; k < unknowns; ++k) precision(k, k) = 1 / (deviation(k) * deviation(k));
   }

@@ -16,11 +16,12 @@ namespace spoolflow::calibration {
 namespace {
 
 constexpr std::array<double, 9> tried_pressure_shares{0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1};
-constexpr std::array<double, 6> rates_per_s{0.08, 0.12, 0.16, 0.24, 0.36, 0.5};
+/// No faster: friction falls with speed, and the maps have that of slow strokes.
+constexpr std::array<double, 4> rates_per_s{0.06, 0.08, 0.12, 0.16};
 /// So much of a flow [share] is unknown where nothing but the range of pressures is known: one standard deviation.
 constexpr double flow_of_unknown_pressure = 0.3;
-/// The deviations and the flow meter's gain.
-constexpr Eigen::Index searched = deviating + 1;
+/// The deviations, the flow meter's gain, and what the maps are wrong by: see UnitUnknowns.
+constexpr Eigen::Index gain = deviating, friction_left = deviating + 1, tilt = deviating + 2, searched = deviating + 3;
 
 /// What each direction of motion makes of the force rows: the spool slides one way, loop and friction hinder it.
 Eigen::MatrixXd force_rows(const EffectSlopes& slopes, double friction_ratio, int direction) {
@@ -37,7 +38,9 @@ class Planner {
     deviation_ = known.covariance.diagonal().cwiseSqrt();
     prior_ = Eigen::MatrixXd::Zero(searched, searched);
     prior_.topLeftCorner(deviating, deviating) = inverse_of_covariance(known.covariance);
-    prior_(deviating, deviating) = 1 / (meter_gain_uncertainty * meter_gain_uncertainty);
+    prior_(gain, gain) = 1 / (meter_gain_uncertainty * meter_gain_uncertainty);
+    prior_(friction_left, friction_left) = 1 / (unloaded_friction_uncertainty_N * unloaded_friction_uncertainty_N);
+    prior_(tilt, tilt) = 1 / (conductance_tilt_uncertainty * conductance_tilt_uncertainty);
     find_flow_slopes();
   }
 
@@ -146,14 +149,17 @@ class Planner {
     const double force_N = force_row_uncertainty_N(type_), flow_m3_per_s = flow_row_uncertainty_m3_per_s(type_);
     Eigen::MatrixXd out = Eigen::MatrixXd::Zero(searched, searched);
     for (const int direction : {1, -1}) {
-      const Eigen::MatrixXd rows = force_rows(slopes, unit().friction.operation_ratio, direction) / force_N;
-      if (speed_m_per_s < fastest_sliding_m_per_s) out.topLeftCorner(deviating, deviating) += rows.transpose() * rows;
+      Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(points.size()), searched);
+      rows.leftCols(deviating) = force_rows(slopes, unit().friction.operation_ratio, direction);
+      if (pressure_share < unloaded_share) rows.col(friction_left).setConstant(-direction);
+      if (speed_m_per_s < fastest_sliding_m_per_s) out += rows.transpose() * rows / (force_N * force_N);
       if (!(speed_m_per_s < fastest_metered_m_per_s) || pressure_Pa == 0) continue;
       for (std::size_t p = 0; p < points.size(); ++p) {
         if (points[p].position_m < unit().closed_below_m) continue;
-        Eigen::VectorXd row(searched);
+        Eigen::VectorXd row = Eigen::VectorXd::Zero(searched);
         row.head(deviating) = std::sqrt(pressure_Pa) * slopes.conductance.row(static_cast<Eigen::Index>(p));
-        row(deviating) = std::sqrt(pressure_Pa) * slopes.here[p].conductance;
+        row(gain) = std::sqrt(pressure_Pa) * slopes.here[p].conductance;
+        row(tilt) = row(gain) * (2 * points[p].position_m / stroke_m - 1);
         out += row * row.transpose() / (flow_m3_per_s * flow_m3_per_s);
       }
     }

@@ -240,7 +240,8 @@ void UnitEvidence::add_resistance(const UnitRun& of) {
 }
 
 void UnitEvidence::add_forces(const Run& run, const sensor::ObserverParameters<double>& unit,
-                              Eigen::VectorXd& sums) const {
+                              const UnitUnknowns& unknowns, Eigen::VectorXd& sums) const {
+  const double unloaded_Pa = unloaded_share * unit.edge.highest_pressure_difference_Pa();
   sensor::ActuatorState<double> actuator{};
   bool first = true;
   for (const Sample& sample : run.samples) {
@@ -260,25 +261,28 @@ void UnitEvidence::add_forces(const Run& run, const sensor::ObserverParameters<d
     const sensor::EdgePoint<double> edge =
         unit.edge.at(sample.temperature_K, std::max(0.0, pressure_Pa), sample.position_m);
     const double aged = sample.rested_s > 0 ? sensor::ageing(unit.friction, sample.rested_s) : 1;
-    const double friction_N = unit.friction.operation_ratio * (aged * edge.friction_N + estimate.friction_half_width_N);
+    const double friction_N =
+        unit.friction.operation_ratio * (aged * edge.friction_N + estimate.friction_half_width_N) +
+        (pressure_Pa < unloaded_Pa ? unknowns.unloaded_friction_N : 0);
     sums(sample.force_row) += estimate.magnetic_force_N - unit.spring.at(sample.position_m).value -
                               (run.pressurised ? edge.flow_force_N : 0) - sample.direction * friction_N;
   }
 }
 
-void UnitEvidence::add_flows(const Run& run, const sensor::ObserverParameters<double>& unit, double meter_gain,
-                             Eigen::VectorXd& sums) const {
+void UnitEvidence::add_flows(const Run& run, const sensor::ObserverParameters<double>& unit,
+                             const UnitUnknowns& unknowns, Eigen::VectorXd& sums) const {
   double seen_m3_per_s = NAN;
   for (const Sample& sample : run.samples) {
     const double pressure_Pa = std::max(0.0, sample.pressure_Pa);
-    const double flow_m3_per_s =
-        unit.edge.at(sample.temperature_K, pressure_Pa, sample.position_m).conductance * std::sqrt(pressure_Pa);
+    const double flow_m3_per_s = unit.edge.at(sample.temperature_K, pressure_Pa, sample.position_m).conductance *
+                                 std::sqrt(pressure_Pa) *
+                                 (1 + unknowns.conductance_tilt * (2 * sample.position_m / type_.valve.stroke_m - 1));
     if (std::isnan(flow_m3_per_s)) continue;
     const double lag_s = run.meter.lag_s + run.meter.dead_time_s;
     const double share = std::isnan(seen_m3_per_s) || !(lag_s > 0) ? 1 : numerics::lag_share(sample.time_step_s, lag_s);
     if (std::isnan(seen_m3_per_s)) seen_m3_per_s = 0;
     seen_m3_per_s += share * (flow_m3_per_s - seen_m3_per_s);
-    if (sample.flow_row >= 0) sums(sample.flow_row) += sample.flow_m3_per_s - (1 + meter_gain) * seen_m3_per_s;
+    if (sample.flow_row >= 0) sums(sample.flow_row) += sample.flow_m3_per_s - (1 + unknowns.meter_gain) * seen_m3_per_s;
   }
 }
 
@@ -287,8 +291,8 @@ Eigen::VectorXd UnitEvidence::rows(const UnitUnknowns& unknowns) const {
   unit.friction.ageing_ratio = 1 + (unit.friction.ageing_ratio - 1) * (1 + unknowns.ageing);
   Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kinds_.size()));
   for (const Run& run : runs_) {
-    add_forces(run, unit, out);
-    if (run.has_pressure && run.has_flow) add_flows(run, unit, unknowns.meter_gain, out);
+    add_forces(run, unit, unknowns, out);
+    if (run.has_pressure && run.has_flow) add_flows(run, unit, unknowns, out);
   }
   std::size_t closed = 0, resistance = 0;
   for (Eigen::Index row = 0; row < out.size(); ++row) {

@@ -19,19 +19,24 @@ struct UnitRun {
   recording::Protocol protocol;  ///< unpressurised_strokes or operation
 };
 
-/// What is searched: the deviations; what the flow meter reads too much, as a share; and by what share the force at
-/// which the spool breaks away exceeds or falls below that of the type's ageing. The last two are of the recordings and
-/// stay out of the unit's model: the type's ageing is one that serves its pre-sliding, not its break-away alone.
+/// What is searched: the deviations, and what is of the recordings and of the type's maps and stays out of the unit's
+/// model. The type's ageing is one that serves its pre-sliding, not its break-away alone. What its maps are wrong by is
+/// no noise of rows: it is the same in all of them, and would pass for armature friction and the position's gain.
 struct UnitUnknowns {
   Deviations deviations{};
-  double meter_gain = 0;
-  double ageing = 0;
+  double meter_gain = 0;           ///< what the flow meter reads too much, as a share
+  double ageing = 0;               ///< of the force at which the spool breaks away beside the type's, a share of ageing
+  double unloaded_friction_N = 0;  ///< by what friction without pressure exceeds that of the maps
+  double conductance_tilt = 0;     ///< by what the conductance exceeds the maps' open, and falls short of them closed
 };
-inline constexpr std::size_t unit_unknowns = variations + 2;
-inline constexpr double ageing_uncertainty = 0.5;  ///< one standard deviation
+/// One standard deviation of each of the last four.
+inline constexpr double meter_gain_uncertainty = 0.005, ageing_uncertainty = 0.5, unloaded_friction_uncertainty_N = 0.3,
+                        conductance_tilt_uncertainty = 0.01;
+inline constexpr std::size_t unit_unknowns = variations + 4;
+/// Below this share of the highest pressure difference it counts as none.
+inline constexpr double unloaded_share = 0.02;
 
-/// One standard deviation of the flow meter's gain [share] and of a mean over a row [share of the rated flow].
-inline constexpr double meter_gain_uncertainty = 0.005;
+/// One standard deviation of a mean of the flow meter over a row [share of the rated flow].
 inline constexpr double meter_uncertainty_share = 0.002;
 /// What the type's maps leave of the forces of another unit in a row, beside what its own bench left [N].
 inline constexpr double unit_force_residual_N = 0.25;
@@ -91,8 +96,9 @@ class UnitEvidence {
   void find_rows(Run& run);
   void add_closed_reading();
   void add_resistance(const UnitRun& run);
-  void add_forces(const Run& run, const sensor::ObserverParameters<double>& unit, Eigen::VectorXd& sums) const;
-  void add_flows(const Run& run, const sensor::ObserverParameters<double>& unit, double meter_gain,
+  void add_forces(const Run& run, const sensor::ObserverParameters<double>& unit, const UnitUnknowns& unknowns,
+                  Eigen::VectorXd& sums) const;
+  void add_flows(const Run& run, const sensor::ObserverParameters<double>& unit, const UnitUnknowns& unknowns,
                  Eigen::VectorXd& sums) const;
 
   const model::Model& type_;

@@ -39,6 +39,11 @@ TEST(PlanMinute, EdgesThatVaryMostAskForPressureAndOpenTheValveUnderIt) {
   EXPECT_TRUE(std::ranges::is_sorted(minute.pressures_Pa));
 }
 
+TEST(PlanMinute, NoStrokeIsSoFastThatFrictionIsNotThatOfTheMaps) {
+  for (const double seconds : {14.0, 60.0, 200.0})
+    EXPECT_LE(plan_minute(type_with({}), "type.json", seconds).rate_per_s, 0.16) << seconds;
+}
+
 TEST(PlanMinute, ItsCornersAreStrokesFromTheClosedEndAndBackWithoutAJump) {
   const std::vector<PlannedCorner> corners = plan_minute(type_with({}), "type.json", 40).corners();
   EXPECT_EQ(corners.front().time_s, 0);
