@@ -16,8 +16,8 @@
 #include "spoolflow/apps/terminal/output_file.hpp"
 #include "spoolflow/apps/terminal/suggestion.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
-#include "spoolflow/apps/type_note.hpp"
 #include "spoolflow/apps/work/reading_notes.hpp"
+#include "spoolflow/apps/work/type_note.hpp"
 #include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/recording/open_table.hpp"
 #include "spoolflow/report/json/estimate_json.hpp"
@@ -92,7 +92,8 @@ void estimate(const EstimateArguments& arguments) {
   for (const std::string& recording : arguments.recordings) roles.push_back({recording, FileKind::recording});
   refuse_other_kinds("estimate", roles);
   EstimateTask task = estimate_task(arguments);
-  say_of_type(task.model, arguments.model, arguments.quiet);
+  if (const std::string note = type_note(task.model, arguments.model); !note.empty() && !arguments.quiet)
+    say("{}\n", note);
   std::optional<OutputFile> summary_file;
   if (!arguments.json.empty()) summary_file.emplace(arguments.json, task.inputs);
   std::vector<validation::EstimateSummary> summaries;

@@ -16,9 +16,9 @@
 #include "spoolflow/apps/terminal/suggestion.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
-#include "spoolflow/apps/type_note.hpp"
 #include "spoolflow/apps/work/corrected_model.hpp"
 #include "spoolflow/apps/work/monitored_recording.hpp"
+#include "spoolflow/apps/work/type_note.hpp"
 #include "spoolflow/report/json/monitor_json.hpp"
 #include "spoolflow/report/monitor/monitor_report.hpp"
 
@@ -59,7 +59,7 @@ void refuse_other_kinds(const MonitorArguments& arguments) {
 void monitor_recordings(const MonitorArguments& arguments) {
   refuse_other_kinds(arguments);
   const model::Model model = model::read_model(arguments.model);
-  say_of_type(model, arguments.model, arguments.quiet);
+  if (const std::string note = type_note(model, arguments.model); !note.empty() && !arguments.quiet) say("{}\n", note);
   recording::ChannelMap channels;
   std::vector<std::filesystem::path> inputs(arguments.recordings.begin(), arguments.recordings.end());
   inputs.emplace_back(arguments.model);
@@ -70,14 +70,12 @@ void monitor_recordings(const MonitorArguments& arguments) {
   if (!arguments.baseline.empty()) inputs.emplace_back(arguments.baseline);
   monitor::Monitor watch(model, {arguments.false_alarms_per_year}, read_baseline(arguments.baseline));
   const report::ReaderUnits units(arguments.units);
-  std::optional<OutputFile> page;
+  std::optional<OutputFile> page, json, corrected;
   if (!arguments.report.empty()) {
     page.emplace(arguments.report, inputs);
     inputs.emplace_back(arguments.report);
   }
-  std::optional<OutputFile> json;
   if (!arguments.json.empty()) json.emplace(arguments.json, inputs);
-  std::optional<OutputFile> corrected;
   if (!arguments.adapt.empty()) {
     if (std::ranges::count(arguments.recordings, "-") > 0)
       throw model::ModelError("-: a corrected model names its recordings by their checksums; --adapt needs files");

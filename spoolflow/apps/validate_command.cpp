@@ -14,7 +14,7 @@
 #include "spoolflow/apps/terminal/progress.hpp"
 #include "spoolflow/apps/terminal/suggestion.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
-#include "spoolflow/apps/type_note.hpp"
+#include "spoolflow/apps/work/type_note.hpp"
 #include "spoolflow/calibration/environment.hpp"
 #include "spoolflow/report/json/metrics_json.hpp"
 #include "spoolflow/report/validation/requirements_table.hpp"
@@ -93,7 +93,7 @@ void validate(const ValidateArguments& arguments) {
   refuse_other_kinds("validate", roles);
   const report::ReaderUnits units(arguments.units);
   model::Model model = model::read_model(arguments.model);
-  say_of_type(model, arguments.model, arguments.quiet);
+  if (const std::string note = type_note(model, arguments.model); !note.empty() && !arguments.quiet) say("{}\n", note);
   if (!arguments.environment.empty()) calibration::apply(recording::read_environment(arguments.environment), model);
   validation::ValidationOptions options{chosen(arguments.estimator, model), {}, {}, arguments.apply_reference_lag};
   if (arguments.reference_lag_ms) options.reference_lag_s = *arguments.reference_lag_ms * 1e-3;

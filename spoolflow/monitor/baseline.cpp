@@ -1,7 +1,14 @@
 #include "spoolflow/monitor/baseline.hpp"
 
 #include <bit>
+#include <charconv>
+#include <cmath>
 #include <span>
+
+#include <nlohmann/json.hpp>
+
+#include "spoolflow/model/json_limits.hpp"
+#include "spoolflow/model/model_error.hpp"
 
 namespace spoolflow::monitor {
 namespace {
@@ -42,6 +49,95 @@ std::uint64_t fingerprint(const model::Model& model) {
   if (model.observer) add(hash, model.observer->parameters);
   if (model.p_to_a && model.p_to_a->observer) add(hash, model.p_to_a->observer->parameters);
   return hash.value;
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<const char*, 2> side_names{"b", "a"};
+constexpr double most_centre = 50;  // usual faults
+
+Json side_json(const DirectionBaseline& side) {
+  return {{"windows", side.windows},
+          {"resistance_Ohm", side.resistance_Ohm},
+          {"centre", side.centre},
+          {"spread", side.spread}};
+}
+
+[[noreturn]] void refuse(const std::string& file, const std::string& path, const std::string& what) {
+  throw model::ModelError(file + ": " + path + ": " + what +
+                          "; a baseline is what `spoolflow monitor --json` writes of healthy runs");
+}
+
+double number(const Json& of, const std::string& file, const std::string& path, const char* name, double most) {
+  const auto found = of.find(name);
+  if (found == of.end() || !found->is_number()) refuse(file, path + "/" + name, "a number is missing");
+  const double value = found->get<double>();
+  if (!(value >= 0) || value > most) refuse(file, path + "/" + name, "the number is out of range");
+  return value;
+}
+
+Magnitudes numbers(const Json& of, const std::string& file, const std::string& path, const char* name, double least,
+                   double most) {
+  const auto found = of.find(name);
+  if (found == of.end() || !found->is_array() || found->size() != magnitudes)
+    refuse(file, path + "/" + name, "six numbers are wanted");
+  Magnitudes out{};
+  for (std::size_t k = 0; k < magnitudes; ++k) {
+    const Json& value = (*found)[k];
+    if (!value.is_number() || !(value.get<double>() >= least) || value.get<double>() > most)
+      refuse(file, path + "/" + name, "a number is out of range");
+    out[k] = value.get<double>();
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string baseline_text(const Baseline& baseline) {
+  std::array<char, 17> digits{};
+  std::to_chars(digits.data(), digits.data() + 16, baseline.model, 16);
+  Json out{{"model", std::string(digits.data())}};
+  for (std::size_t k = 0; k < side_names.size(); ++k) {
+    if (baseline.side[k].windows > 0) out[side_names[k]] = side_json(baseline.side[k]);
+  }
+  if (baseline.dither_frequency_Hz > 0)
+    out["dither"] = {{"amplitude_A", baseline.dither_amplitude_A}, {"frequency_Hz", baseline.dither_frequency_Hz}};
+  return out.dump();
+}
+
+Baseline parse_baseline(const std::string& text, const std::string& file) {
+  model::require_json_limits(text, file);
+  const Json json = Json::parse(text, nullptr, false);
+  if (json.is_discarded() || !json.is_object()) refuse(file, "/", "this is no JSON object");
+  const auto found = json.find("baseline");
+  if (found == json.end() || !found->is_object()) refuse(file, "/baseline", "there is none");
+  const auto model = found->find("model");
+  if (model == found->end() || !model->is_string())
+    refuse(file, "/baseline/model", "the model's fingerprint is missing");
+  Baseline out;
+  const std::string digits = model->get<std::string>();
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), out.model, 16);
+  if (error != std::errc() || end != digits.data() + digits.size())
+    refuse(file, "/baseline/model", "\"" + digits + "\" is no fingerprint");
+  bool any = false;
+  for (std::size_t k = 0; k < side_names.size(); ++k) {
+    const auto side = found->find(side_names[k]);
+    if (side == found->end()) continue;
+    const std::string path = std::string("/baseline/") + side_names[k];
+    out.side[k].windows = number(*side, file, path, "windows", 1e15);
+    out.side[k].resistance_Ohm = number(*side, file, path, "resistance_Ohm", 1e6);
+    out.side[k].centre = numbers(*side, file, path, "centre", -most_centre, most_centre);
+    out.side[k].spread = numbers(*side, file, path, "spread", 1e-3, most_centre);
+    any = true;
+  }
+  if (const auto dither = found->find("dither"); dither != found->end()) {
+    out.dither_amplitude_A = number(*dither, file, "/baseline/dither", "amplitude_A", 1e3);
+    out.dither_frequency_Hz = number(*dither, file, "/baseline/dither", "frequency_Hz", 1e5);
+  }
+  if (!any) refuse(file, "/baseline", "the runs that it was made from have no indicator");
+  return out;
 }
 
 }  // namespace spoolflow::monitor

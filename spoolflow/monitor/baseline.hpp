@@ -2,6 +2,7 @@
 /// What a healthy valve showed, kept to compare the same valve with later.
 #include <array>
 #include <cstdint>
+#include <string>
 
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/monitor/fault_parameters.hpp"
@@ -25,5 +26,12 @@ struct Baseline {
 
 /// A hash of the model's parameters, the same wherever it was read.
 [[nodiscard]] std::uint64_t fingerprint(const model::Model& model);
+
+/// As one JSON object: the member "baseline" of what `spoolflow monitor --json` writes.
+[[nodiscard]] std::string baseline_text(const Baseline& baseline);
+
+/// From the whole of such a file. Throws ModelError with the file, the JSON path and the remedy: no JSON, no baseline
+/// in it, a number that is missing or beyond its range.
+[[nodiscard]] Baseline parse_baseline(const std::string& text, const std::string& file);
 
 }  // namespace spoolflow::monitor

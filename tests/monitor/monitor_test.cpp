@@ -9,7 +9,7 @@
 
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/estimation/recordings/sensor_channels.hpp"
-#include "spoolflow/monitor/baseline_json.hpp"
+#include "spoolflow/monitor/baseline.hpp"
 #include "spoolflow/monitor/indicators.hpp"
 #include "tests/monitor/example.hpp"
 

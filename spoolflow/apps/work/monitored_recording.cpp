@@ -5,7 +5,7 @@
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/estimation/recordings/sensor_channels.hpp"
 #include "spoolflow/model/json_limits.hpp"
-#include "spoolflow/monitor/baseline_json.hpp"
+#include "spoolflow/monitor/baseline.hpp"
 
 namespace spoolflow::apps {
 namespace {

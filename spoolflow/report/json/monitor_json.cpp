@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "spoolflow/monitor/baseline_json.hpp"
+#include "spoolflow/monitor/baseline.hpp"
 #include "spoolflow/report/json/type_json.hpp"
 
 namespace spoolflow::report {
