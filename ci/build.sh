@@ -13,11 +13,7 @@ flock 9 # two commands at once must not build in one folder
 
 if [ ! -e "$build/build.ninja" ]; then echo "building in $build; the first time takes minutes" >&2; fi
 if [ ! -e "$build/build.ninja" ] || [ $# -gt 0 ]; then
-  if command -v ccache >/dev/null; then
-    set -- "$@" -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
-  else
-    set -- "$@" -DSPOOLFLOW_PRECOMPILED=ON
-  fi
+  if command -v ccache >/dev/null; then set -- "$@" -DCMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
   if ! cmake --preset "$preset" "$@" >"$build/configure.log" 2>&1 </dev/null; then
     cat "$build/configure.log" >&2
     exit 1

@@ -6,8 +6,6 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 # -O3 is for what calculates (FAST): elsewhere it takes longer to compile and nothing less to run.
 string(REPLACE "-O3" "-O2" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
-# ccache keeps nothing of what is compiled with such headers: ci/build.sh asks for them where there is none.
-option(SPOOLFLOW_PRECOMPILED "Read the headers of the standard library and fmt once for all folders (GCC)" OFF)
 if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   add_compile_options(-ffp-contract=off) # products and sums are rounded one by one, as they are there: the same answers everywhere
 endif()
@@ -78,25 +76,6 @@ function(spoolflow_fast target)
   endif()
 endfunction()
 
-# spoolflow_precompiled(TARGET): headers of the standard library and of fmt, which take most files longer to read than their own
-# lines to compile, are read once for all targets that are compiled with the same options; called when the target has its own.
-function(spoolflow_precompiled target)
-  if(NOT SPOOLFLOW_PRECOMPILED OR NOT CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-    return()
-  endif()
-  get_target_property(options ${target} COMPILE_OPTIONS)
-  list(FILTER options INCLUDE REGEX "^-[OfUD]")
-  string(MAKE_C_IDENTIFIER "spoolflow_headers${options}" headers)
-  if(NOT TARGET ${headers})
-    add_library(${headers} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled_headers/nothing.cpp)
-    target_link_libraries(${headers} PRIVATE spoolflow_settings spoolflow_warnings fmt::fmt)
-    set_target_properties(${headers} PROPERTIES COMPILE_OPTIONS "${options}")
-    target_precompile_headers(${headers} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled_headers/headers.hpp)
-  endif()
-  target_precompile_headers(${target} REUSE_FROM ${headers})
-  target_compile_definitions(${target} PRIVATE $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
-endfunction()
-
 # spoolflow_folder(NAME [LIGHT|FAST] [LINKS target…] [PRIVATE_LINKS target…] [APART file…])
 # All *.cpp of the folder, but those that are compiled apart, become the library spoolflow_NAME, in addons/ addons_NAME; a folder
 # without *.cpp is header-only. A part has its folder's name before its own: rig/plant becomes spoolflow_rig_plant. LIGHT and
@@ -126,7 +105,6 @@ function(spoolflow_folder name)
     if(NOT name MATCHES "^(estimation|calibration_|rig|analysis|uncertainty|validation|plausibility|numerics|parallel|units)")
       spoolflow_hardened(${prefix}_${name})
     endif()
-    spoolflow_precompiled(${prefix}_${name})
   else()
     add_library(${prefix}_${name} INTERFACE)
     target_link_libraries(${prefix}_${name} INTERFACE spoolflow_settings ${arg_LINKS})

@@ -1,1 +1,0 @@
-// Nothing of its own: the headers are read for it.
