@@ -3,7 +3,7 @@ import type { View } from './view';
 
 export const keysText =
   'Left and right arrow move the cursor, with shift ten steps; page up and down move the picture; plus and minus zoom; ' +
-  'home and end go to the ends; 0 or escape shows the whole run; a and b put two cursors down, whose differences are told, ' +
+  'home and end go to the ends; 0 or escape shows the whole run; a and b put two cursors down, whose differences are reported, ' +
   'and c takes them away. Buttons among the plots hide traces and zoom into their values.';
 
 const quiet_ms = 300;

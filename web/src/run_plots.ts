@@ -101,7 +101,7 @@ export class RunPlots {
       button('PNG', 'Save the plots as a picture (PNG)', () => this.savePicture()),
       button('CSV', 'Save the visible data (CSV)', () => this.saveData()), this.clock);
     const hint = element('span', 'hint');
-    hint.textContent = 'Drag across for time, up or down for values; double click: whole run. Click twice: cursors A and B, a third time anew.';
+    hint.textContent = 'Drag across for time, up or down for values; double click: whole run. Click twice: cursors A and B, a third time begins again.';
     out.append(hint);
     return out;
   }

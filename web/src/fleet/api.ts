@@ -78,12 +78,12 @@ export const readPartitions = async (): Promise<Partition[]> =>
   (await read<{ partitions: Partition[] }>('/api/v1/partitions')).partitions;
 
 /** All of a few seconds. */
-export interface FleetTold {
+export interface FleetData {
   valves: FleetValve[];
   sites: FleetSite[];
   alarms: Alarm[];
 }
-export async function readFleet(): Promise<FleetTold> {
+export async function readFleet(): Promise<FleetData> {
   const [valves, sites, alarms] = await Promise.all([readValves(), readSites(), readAlarms()]);
   return { valves, sites, alarms };
 }

@@ -1,12 +1,12 @@
 /** The page of `spoolflow fleet`: asks the program every few seconds how all valves stand. */
 import { run, valveOf, type View } from '../live/frame';
-import { readFleet, type FleetTold } from './api';
+import { readFleet, type FleetData } from './api';
 import { AlarmsView, WorkersView } from './other_views';
 import { Overview } from './overview';
 import { SeriesView } from './series_view';
 import { ValveView } from './valve_view';
 
-function viewOf(hash: string): View<FleetTold> | null {
+function viewOf(hash: string): View<FleetData> | null {
   const valve = valveOf(hash);
   if (valve !== null) return new ValveView(valve);
   switch (hash) {
@@ -17,8 +17,8 @@ function viewOf(hash: string): View<FleetTold> | null {
   }
 }
 
-function totals({ valves, sites }: FleetTold): { text: string; open: number } {
-  const sum = (of: (site: FleetTold['sites'][number]) => number): number => sites.reduce((all, site) => all + of(site), 0);
+function totals({ valves, sites }: FleetData): { text: string; open: number } {
+  const sum = (of: (site: FleetData['sites'][number]) => number): number => sites.reduce((all, site) => all + of(site), 0);
   const text = `${valves.length} valves of ${sites.length} sites, ${sum((one) => one.valves - one.ne107.good)} not good, ` +
     `${sum((one) => one.silent)} silent`;
   return { text, open: sum((one) => one.unacknowledged) };

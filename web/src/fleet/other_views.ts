@@ -1,13 +1,13 @@
 /** Alarms of all sites, and which worker has which partition. */
 import { AlarmList } from '../live/alarm_list';
 import { element, row, setText } from '../live/element';
-import { readPartitions, type FleetTold } from './api';
+import { readPartitions, type FleetData } from './api';
 
 export class AlarmsView {
   readonly place = element('div', '', element('h2', '', 'Alarms'));
   private readonly wanted = element('input', '');
   private list: AlarmList;
-  private told: FleetTold | null = null;
+  private data: FleetData | null = null;
 
   constructor() {
     this.wanted.type = 'search';
@@ -16,12 +16,12 @@ export class AlarmsView {
       const asked = this.wanted.value.trim().toLowerCase();
       return asked === '' || `${alarm.valve} ${alarm.cause} ${alarm.text}`.replace(/_/g, ' ').toLowerCase().includes(asked);
     }, 200, true);
-    this.wanted.addEventListener('input', () => this.told !== null && this.list.show(this.told.alarms));
+    this.wanted.addEventListener('input', () => this.data !== null && this.list.show(this.data.alarms));
     this.place.append(element('div', 'tools', element('label', '', 'Show ', this.wanted)), this.list.place);
   }
 
-  show(data: FleetTold): void {
-    this.told = data;
+  show(data: FleetData): void {
+    this.data = data;
     this.list.show(data.alarms);
   }
 }

@@ -1,7 +1,7 @@
 /** Sites, and below them the valves that are asked for. */
 import { figure, severity, signs, type Sign } from '../live/api';
 import { element, row, setText } from '../live/element';
-import type { FleetSite, FleetTold, FleetValve } from './api';
+import type { FleetSite, FleetData, FleetValve } from './api';
 import { ValveList } from './valve_list';
 
 function siteRow(site: FleetSite, chosen: boolean, choose: () => void): HTMLTableRowElement {
@@ -28,7 +28,7 @@ export class Overview {
   private readonly count = element('span', 'count');
   private readonly list = new ValveList();
   private site = '';
-  private told: FleetTold | null = null;
+  private data: FleetData | null = null;
 
   constructor() {
     this.wanted.type = 'search';
@@ -47,26 +47,26 @@ export class Overview {
                               element('label', '', this.worstFirst, ' worst first'), this.count), lineHead, this.list.place);
   }
 
-  show(data: FleetTold): void {
-    this.told = data;
+  show(data: FleetData): void {
+    this.data = data;
     const focused = this.body.contains(document.activeElement) ? document.activeElement!.textContent : null;
     this.body.replaceChildren(...data.sites.map((site) => siteRow(site, site.site === this.site, () => {
       this.site = this.site === site.site ? '' : site.site;
-      this.show(this.told!);
+      this.show(this.data!);
     })));
     if (focused !== null) [...this.body.querySelectorAll('button')].find((one) => one.textContent === focused)?.focus();
     this.arrange();
   }
 
   private arrange(): void {
-    if (this.told === null) return;
+    if (this.data === null) return;
     const asked = this.wanted.value.trim().toLowerCase(), sign = this.sign.value;
     const fits = (valve: FleetValve): boolean => (this.site === '' || valve.site === this.site) &&
       (asked === '' || valve.id.toLowerCase().includes(asked) || valve.series.toLowerCase().includes(asked)) &&
       (sign === '' || (sign === 'silent' ? valve.silent : valve.ne107 !== 'good'));
-    const shown = this.told.valves.filter(fits);
+    const shown = this.data.valves.filter(fits);
     if (this.worstFirst.checked) shown.sort((a, b) => severity[b.ne107] - severity[a.ne107]);
-    setText(this.count, `${shown.length} of ${this.told.valves.length} valves`);
+    setText(this.count, `${shown.length} of ${this.data.valves.length} valves`);
     this.list.show(shown);
   }
 }

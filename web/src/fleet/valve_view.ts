@@ -4,7 +4,7 @@ import { clock, figure, signs, words, type Alarm } from '../live/api';
 import { element, setText } from '../live/element';
 import { EventList } from '../live/event_list';
 import { HistoryView } from '../live/history_view';
-import { readAlarms, readEvents, type FleetTold } from './api';
+import { readAlarms, readEvents, type FleetData } from './api';
 
 export class ValveView {
   readonly place: HTMLElement;
@@ -21,7 +21,7 @@ export class ValveView {
                          element('h3', '', 'Alarms'), this.alarms.place, element('h3', '', 'Events'), this.events.place);
   }
 
-  show(data: FleetTold): void {
+  show(data: FleetData): void {
     const valve = data.valves.find((one) => one.id === this.id);
     if (valve === undefined) {
       setText(this.figures, 'The fleet knows no valve of this name.');

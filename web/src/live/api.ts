@@ -102,7 +102,7 @@ export interface Session {
 }
 
 /** All of one second. */
-export interface Told {
+export interface LiveData {
   valves: Valve[];
   events: SiteEvent[];
   alarms: Alarm[];
@@ -149,7 +149,7 @@ const readLong = <T>(path: string): Promise<T> => answered<T>(path, {}, 60_000);
 const post = <T>(path: string, body: unknown = {}): Promise<T> =>
   answered<T>(path, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(body) });
 
-export async function readAll(): Promise<Told> {
+export async function readAll(): Promise<LiveData> {
   const [valves, events, alarms, site] = await Promise.all([
     read<{ valves: Valve[] }>('/api/v1/valves'), read<{ events: SiteEvent[] }>('/api/v1/events'),
     read<{ alarms: Alarm[] }>('/api/v1/alarms'), read<Site>('/api/v1/site')]);

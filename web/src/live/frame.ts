@@ -5,26 +5,26 @@ import { element, setText } from './element';
 import { onThemeChange, themeControl } from '../theme';
 import { AccountControl, LoginForm, visitor } from './visitor';
 
-export interface View<Told> {
+export interface View<Data> {
   readonly place: HTMLElement;
-  show(data: Told): void;
+  show(data: Data): void;
   resize?(): void;
   recolour?(): void;
   close?(): void;
 }
 
-export interface Page<Told> {
+export interface Page<Data> {
   /** Of the program, as it stands in the title. */
   readonly name: string;
   readonly period_ms: number;
-  read(): Promise<Told>;
-  readonly overview: View<Told>;
+  read(): Promise<Data>;
+  readonly overview: View<Data>;
   /** Nothing: the overview. */
-  viewOf(hash: string): View<Told> | null;
+  viewOf(hash: string): View<Data> | null;
   /** The line at the top, and how many alarms nobody has seen. */
-  totals(data: Told): { text: string; open: number };
+  totals(data: Data): { text: string; open: number };
   /** For screen readers; `before`: the answer of the last time. */
-  announce?(data: Told, before: Told | null): void;
+  announce?(data: Data, before: Data | null): void;
 }
 
 /** The valve that the address names. */
@@ -33,7 +33,7 @@ export function valveOf(hash: string): string | null {
   return valve === null ? null : decodeURIComponent(valve[1]!);
 }
 
-class Frame<Told> {
+class Frame<Data> {
   private readonly view = document.getElementById('view')!;
   private readonly totals = document.getElementById('totals')!;
   private readonly stale = document.getElementById('stale')!;
@@ -41,12 +41,12 @@ class Frame<Told> {
   private readonly alarmCount = document.getElementById('alarm-count')!;
   private readonly account = new AccountControl(() => this.begin());
   private readonly login = new LoginForm(() => this.begin());
-  private shown: View<Told>;
-  private last: Told | null = null;
+  private shown: View<Data>;
+  private last: Data | null = null;
   private answered = performance.now();
   private next = 0;
 
-  constructor(private readonly page: Page<Told>) {
+  constructor(private readonly page: Page<Data>) {
     this.shown = page.overview;
     document.getElementById('controls')!.append(themeControl(), this.account.place);
     window.addEventListener('hashchange', () => this.turn());
@@ -146,6 +146,6 @@ class Frame<Told> {
   }
 }
 
-export function run<Told>(page: Page<Told>): void {
+export function run<Data>(page: Page<Data>): void {
   new Frame(page).begin();
 }

@@ -1,7 +1,7 @@
 /** Every valve of the site on one card: flow, band, sign, the worst indicator, and a line of the last two minutes. */
 import { AlarmList } from './alarm_list';
 import {
-  duration, figure, inUnit, isOld, readRecent, scaled, severity, short, signs, words, type Indicator, type Recent, type Told, type Valve,
+  duration, figure, inUnit, isOld, readRecent, scaled, severity, short, signs, words, type Indicator, type Recent, type LiveData, type Valve,
 } from './api';
 import { element, setText } from './element';
 import { EventList } from './event_list';
@@ -124,7 +124,7 @@ export class Overview {
   private readonly wanted = element('input', '');
   private readonly worstFirst = element('input', '');
   private readonly count = element('span', 'count');
-  private told: Told | null = null;
+  private data: LiveData | null = null;
   private asked = false;
 
   constructor() {
@@ -141,8 +141,8 @@ export class Overview {
     this.place.append(this.alarms.place, tools, this.grid, element('h2', '', 'Events'), this.events.place);
   }
 
-  show(data: Told): void {
-    this.told = data;
+  show(data: LiveData): void {
+    this.data = data;
     for (const valve of data.valves) {
       let card = this.cards.get(valve.id);
       if (card === undefined) {
@@ -166,13 +166,13 @@ export class Overview {
 
   /** The cards that are asked for, in their order; the page is touched where that changes. */
   private arrange(): void {
-    if (this.told === null) return;
+    if (this.data === null) return;
     const asked = this.wanted.value.trim().toLowerCase();
     const fits = (valve: Valve): boolean => asked === '' || valve.id.toLowerCase().includes(asked) ||
       signs[valve.ne107].includes(asked) || valve.causes.some((one) => words(one.cause).includes(asked));
-    const shown = this.told.valves.filter(fits);
+    const shown = this.data.valves.filter(fits);
     if (this.worstFirst.checked) shown.sort((a, b) => severity[b.ne107] - severity[a.ne107]);
-    setText(this.count, `${shown.length} of ${this.told.valves.length} valves`);
+    setText(this.count, `${shown.length} of ${this.data.valves.length} valves`);
     const links = shown.map((valve) => this.cards.get(valve.id)!.link);
     if (links.length === this.grid.children.length && links.every((link, k) => this.grid.children[k] === link)) return;
     const focused = document.activeElement;

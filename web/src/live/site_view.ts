@@ -1,6 +1,6 @@
 /** The site as a whole: totals, what they were over the last minutes, how each source fares, all alarms. */
 import { AlarmList } from './alarm_list';
-import { clock, figure, severity, type Told, type Valve } from './api';
+import { clock, figure, severity, type LiveData, type Valve } from './api';
 import { element, row, setText } from './element';
 
 class Tile {
@@ -56,7 +56,7 @@ export class SiteView {
                       element('div', 'wide', element('table', 'sources', head, this.sources)));
   }
 
-  show({ valves, alarms, site }: Told): void {
+  show({ valves, alarms, site }: LiveData): void {
     this.tiles.flow.show(figure(site.flow_L_min, 1));
     this.tiles.power.show(figure(site.hydraulic_power_W === null ? null : site.hydraulic_power_W / 1e3, 2));
     this.tiles.energy.show(figure(valves.reduce((sum, valve) => sum + (valve.energy_J ?? 0), 0) / 3.6e6, 3));
@@ -103,7 +103,7 @@ export class AlarmsView {
   constructor() {
     this.place.append(element('h2', '', 'Alarms'), this.open.place, element('h3', '', 'Gone and acknowledged'), this.cleared.place);
   }
-  show({ alarms, valves }: Told): void {
+  show({ alarms, valves }: LiveData): void {
     this.open.follow(valves);
     this.open.show(alarms);
     this.cleared.show(alarms);

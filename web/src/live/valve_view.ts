@@ -1,7 +1,7 @@
 /** One valve: its plot as it comes, what its monitor says, days of it, and how its source fares. */
 import { AlarmList } from './alarm_list';
 import {
-  clock, duration, figure, grouped, inUnit, readRecordings, scaled, short, signs, trendText, words, type Indicator, type Told, type Valve,
+  clock, duration, figure, grouped, inUnit, readRecordings, scaled, short, signs, trendText, words, type Indicator, type LiveData, type Valve,
 } from './api';
 import { element, row, setText } from './element';
 import { EventList } from './event_list';
@@ -92,7 +92,7 @@ export class ValveView {
     this.days.redraw();
   }
 
-  show({ valves, events, alarms, site }: Told): void {
+  show({ valves, events, alarms, site }: LiveData): void {
     const valve = valves.find((one) => one.id === this.id);
     if (valve === undefined) {
       setText(this.figures, 'There is no valve of this name at this site.');
