@@ -81,8 +81,8 @@ class Rows {
   static constexpr const char* inferred = "inferred";
   static constexpr const char* assumed = "assumed";
 
-  void add(const char* of, const char* how, std::string from, const char* unit, Uncertainty uncertainty_95) {
-    rows_.push_back({model_.valve.direction, of, how, std::move(from), unit, uncertainty_95});
+  void add(std::string_view of, const char* how, std::string from, const char* unit, Uncertainty uncertainty_95) {
+    rows_.push_back({model_.valve.direction, std::string(of), how, std::move(from), unit, uncertainty_95});
   }
   void add_force(const char* of, bool by_bench, const char* bench, const char* instead, std::string_view residual) {
     add(of, by_bench ? measured : inferred, by_bench ? bench : instead, "N", 2 * rms_of(residual));
@@ -93,7 +93,7 @@ class Rows {
 
   /// Newtons, which the flow does not depend on.
   void add_scale() {
-    constexpr const char* of = "scale of all forces";
+    constexpr std::string_view of = model::scale_of_forces;
     if (bench_ == nullptr || own_map_)
       return add(of, measured, "load cells of the force benches", "N", model_.instruments.force_N);
     if (own_spring_ || own_axial_)

@@ -49,6 +49,9 @@ struct Adaptation {
 };
 inline constexpr std::string_view adaptation_protocol = "adaptation";
 
+/// `of` of the row on what the scale of all newtons is known by: pages show it apart.
+inline constexpr std::string_view scale_of_forces = "scale of all forces";
+
 /// How one quantity of the valve is known.
 struct KnownQuantity {
   std::string direction;                      ///< "b" or "a"

@@ -69,15 +69,20 @@ class Binder {
           "-1";
     }
     if (const std::string unread = unread_for(channel); !unread.empty()) hint += "; " + unread;
-    const ChannelMap guessed = propose_channels(contents_of("", table_)).map;
-    if (const auto other = guessed.sources.find(channel); hint.empty() && other != guessed.sources.end())
-      hint = fmt::format("; '{}' may be it", other->second.column);
+    if (hint.empty()) {
+      const ChannelMap guessed = guesses();
+      const auto other = guessed.sources.find(channel);
+      if (other != guessed.sources.end()) hint = fmt::format("; '{}' may be it", other->second.column);
+    }
     throw RecordingError(
         fmt::format("{}: channel {} is missing{}; the columns are {}. Name the column {}_<unit> (unit: {}) or say in a "
                     "channel map which column it is (`spoolflow inspect` proposes one)",
                     file_, name(channel), hint, columns_.empty() ? "none" : listed(column_names()), name(channel),
                     listed(unit_names(channel))));
   }
+
+  /// Which columns may be which channels, by other names too.
+  ChannelMap guesses() const { return propose_channels(contents_of("", table_)).map; }
 
   /// What would be that channel by its name, if it could be read; empty: nothing.
   std::string unread_as(Channel channel) const {
@@ -266,7 +271,13 @@ std::vector<BoundColumn> bind_channels(const SampleTable& table, const ReadOptio
 std::string unread_channels(const SampleTable& table, const ReadOptions& options, const std::vector<BoundColumn>& bound,
                             const std::string& file) {
   const Binder binder(table, options, file);
-  const ChannelMap guessed = propose_channels(contents_of("", table)).map;
+  std::vector<Channel> missing;
+  for (const Channel channel : all_channels()) {
+    if (std::ranges::count(options.optional, channel) == 0) continue;  // a required one is bound
+    if (std::ranges::count(bound, channel, &BoundColumn::channel) == 0) missing.push_back(channel);
+  }
+  if (missing.empty()) return {};
+  const ChannelMap guessed = binder.guesses();
   const auto named_otherwise = [&](Channel channel) -> std::string {
     const auto found = guessed.sources.find(channel);
     if (found == guessed.sources.end() || std::ranges::count(bound, found->second.column, &BoundColumn::name) > 0)
@@ -275,9 +286,7 @@ std::string unread_channels(const SampleTable& table, const ReadOptions& options
                        found->second.column, name(channel), name(channel));
   };
   std::string out;
-  for (const Channel channel : all_channels()) {
-    if (std::ranges::count(options.optional, channel) == 0) continue;  // a required one is bound
-    if (std::ranges::count(bound, channel, &BoundColumn::channel) > 0) continue;
+  for (const Channel channel : missing) {
     std::string what = binder.unread_as(channel);
     if (what.empty()) what = named_otherwise(channel);
     if (const auto assumed = options.assumed.find(channel); assumed != options.assumed.end())

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -176,12 +177,15 @@ Proposal propose_channels(const FileContents& contents, const std::vector<bool>&
     }
   };
   std::vector<bool> own(contents.columns.size(), false);
+  std::vector<std::optional<ChannelHeader>> headers;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    headers.push_back(channel_header(contents.column(k)));
+    own[k] = headers[k].has_value() || holds_none(k);
+  }
   for (const bool exact : {true, false}) {
     for (std::size_t k = 0; k < own.size(); ++k) {
-      const auto header = channel_header(contents.column(k));
-      own[k] = header.has_value() || holds_none(k);
-      if (header && header->exact == exact && !holds_none(k))
-        propose(header->channel, contents.columns[k], header->unit);
+      if (headers[k] && headers[k]->exact == exact && !holds_none(k))
+        propose(headers[k]->channel, contents.columns[k], headers[k]->unit);
     }
   }
   for (const bool with_unit : {true, false}) {

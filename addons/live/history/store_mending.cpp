@@ -103,7 +103,7 @@ void Store::save_as(const std::string& path) {
 }
 
 std::string Store::rewrite() {
-  const std::string fresh = path_ + ".anew";
+  const std::string fresh = path_ + ".mended";
   try {
     save_as(fresh);
   } catch (const StoreDamage&) {  // deleted after it was damaged: there is nothing to set aside

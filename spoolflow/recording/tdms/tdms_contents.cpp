@@ -119,8 +119,8 @@ class Segments {
     file_.read(begin, content);
     ByteReader bytes(content, lead.order(), what_);
     std::vector<std::size_t> before;
-    const bool anew = lead.is(LeadIn::new_objects);
-    if (anew) {
+    const bool new_list = lead.is(LeadIn::new_objects);
+    if (new_list) {
       for (const TdmsSource& source : sources_) {
         before.push_back(source.channel);
         present_[source.channel] = false;
@@ -130,7 +130,7 @@ class Segments {
     begun_ = true;
     listed_ = false;
     for (std::uint32_t left = bytes.u32(); left > 0; --left) object(bytes, lead.order());
-    if (anew) listed_ = !std::ranges::equal(before, sources_, {}, {}, &TdmsSource::channel);
+    if (new_list) listed_ = !std::ranges::equal(before, sources_, {}, {}, &TdmsSource::channel);
     if (chunk_ && order_ == lead.order() && interleaved_ == lead.is(LeadIn::interleaved) && !changed_ && !listed_)
       return;
     order_ = lead.order();

@@ -57,7 +57,7 @@ Verdict calibration_verdict(const model::Model& model) {
                    "means several flow rates.",
                    uniqueness.ambiguous_at_m.size(), fixed(units::length(uniqueness.ambiguous_at_m.front()), 2)));
   const auto& known = model.provenance.quantities;
-  const auto scale = std::ranges::find(known, "scale of all forces", &model::KnownQuantity::of);
+  const auto scale = std::ranges::find(known, model::scale_of_forces, &model::KnownQuantity::of);
   if (scale != known.end() && scale->how == "inferred") {
     out.limits.emplace_back(
         fmt::format("No force bench measured a newton: forces are inferred from the flow bench, their common scale "
