@@ -1,20 +1,22 @@
-/// The only file that sees Boost.Beast, which takes long to compile.
 #include "addons/live/http/server.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <thread>
 
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <fmt/format.h>
 #include <openssl/err.h>
 
 #include "addons/live/http/connection.hpp"
+#include "addons/live/http/peer_address.hpp"
 #include "addons/live/http/settings_watch.hpp"
 
 namespace spoolflow::live {
 namespace {
 
-std::string reason(const beast::system_error& error) {
+std::string reason(const boost::system::system_error& error) {
   return error.code().message();
 }
 
@@ -29,7 +31,7 @@ std::shared_ptr<asio::ssl::context> tls_context(const PageSettings& settings) {
   const std::string certificate = settings.certificate.string(), key = settings.key.string();
   try {
     context->use_certificate_chain_file(certificate);
-  } catch (const beast::system_error& error) {
+  } catch (const boost::system::system_error& error) {
     throw SiteError(
         fmt::format("{}: no certificate can be read from it ({}); it must be a PEM file with the server's "
                     "certificate first",
@@ -43,7 +45,7 @@ std::shared_ptr<asio::ssl::context> tls_context(const PageSettings& settings) {
   }
   try {
     context->use_private_key_file(key, asio::ssl::context::pem);
-  } catch (const beast::system_error& error) {
+  } catch (const boost::system::system_error& error) {
     throw SiteError(fmt::format("{}: is no key of the certificate {} ({}); it must be a PEM file without password", key,
                                 certificate, reason(error)));
   }
@@ -85,7 +87,7 @@ struct PageServer::Parts {
 
   void look_again() {
     next_look.expires_after(look_period);
-    next_look.async_wait([this](beast::error_code ended) {
+    next_look.async_wait([this](boost::system::error_code ended) {
       if (ended) return;
       if (watch.changed()) read_again();
       look_again();
@@ -116,7 +118,7 @@ struct PageServer::Parts {
 
   /// A waiting connection is accepted; without a descriptor an idle one is closed, and the listener rests.
   void accept() {
-    acceptor.async_wait(tcp::acceptor::wait_read, [this](beast::error_code error) {
+    acceptor.async_wait(tcp::acceptor::wait_read, [this](boost::system::error_code error) {
       if (error == asio::error::operation_aborted) return;
       tcp::socket socket(context);
       if (!error) acceptor.accept(socket, error);
@@ -127,26 +129,20 @@ struct PageServer::Parts {
       }
       seats.end_longest_waiting(std::chrono::steady_clock::now());
       next_accept.expires_after(accept_pause);
-      next_accept.async_wait([this](beast::error_code ended) {
+      next_accept.async_wait([this](boost::system::error_code ended) {
         if (!ended) accept();
       });
     });
   }
   void take(tcp::socket&& socket) {
-    beast::error_code error;
+    boost::system::error_code error;
     const auto other = socket.remote_endpoint(error);
     if (error) return;
     const std::string host = host_of(other.address().to_string()).value_or("");
     const bool is_proxy = std::find(settings.proxies.begin(), settings.proxies.end(), host) != settings.proxies.end();
     auto seat = seats.take(peer_of_host(host), is_proxy, std::chrono::steady_clock::now());
     if (!seat) return;
-    const Hall hall{desk, settings};
-    if (tls) {
-      std::make_shared<Connection<TlsStream>>(TlsStream(std::move(socket), *tls), std::move(*seat), host, hall)
-          ->begin();
-    } else {
-      std::make_shared<Connection<PlainStream>>(PlainStream(std::move(socket)), std::move(*seat), host, hall)->begin();
-    }
+    serve(std::move(socket), tls.get(), std::move(*seat), host, {desk, settings});
   }
 };
 
@@ -170,7 +166,7 @@ PageServer::~PageServer() {
 }
 
 std::uint16_t PageServer::port() const {
-  beast::error_code ignored;
+  boost::system::error_code ignored;
   return parts_->acceptor.local_endpoint(ignored).port();
 }
 

@@ -15,7 +15,7 @@ namespace {
 std::array<std::atomic<const char*>, 64> unfinished{};
 std::atomic<OutputState> output_state{OutputState::nothing_written};
 std::array<char, 64> speaker_text{};
-std::atomic_flag ending = ATOMIC_FLAG_INIT;
+std::atomic_flag is_ending = ATOMIC_FLAG_INIT;
 bool terminal = false;
 static_assert(std::atomic<const char*>::is_always_lock_free && std::atomic<OutputState>::is_always_lock_free);
 
@@ -37,7 +37,7 @@ extern "C" void tidy_up(int) {
 }
 
 extern "C" void end_interrupted(int signal) {
-  if (ending.test_and_set()) return;
+  if (is_ending.test_and_set()) return;
   remove_unfinished();
   if (terminal) say_at_once("\r\033[K");  // a progress line may stand there
   say_at_once(speaker_text.data());

@@ -15,7 +15,7 @@
 namespace spoolflow::calibration {
 namespace {
 
-constexpr double same_temperature_K = 5;
+constexpr double path_temperature_K = 5;
 constexpr double least_share_range = 0.02;  // two edges' flow meters and pressures
 
 /// One edge at one position, over the pressure difference across it.
@@ -120,7 +120,7 @@ std::string written_degC(double temperature_K) {
 
 bool alike(double one_K, double other_K) {
   if (std::isnan(one_K) || std::isnan(other_K)) return std::isnan(one_K) && std::isnan(other_K);
-  return std::abs(one_K - other_K) <= same_temperature_K;
+  return std::abs(one_K - other_K) <= path_temperature_K;
 }
 
 /// The fit of the other edge at the nearest oil temperature.
@@ -144,7 +144,7 @@ const AxialForceFit& partner(const AxialForceFit& fit, const recording::Recordin
   throw CalibrationError(
       fmt::format("{}: edge measured at {}, and the path's other edge is not known there within {} K ({}); record both "
                   "edges at the same oil temperatures",
-                  recording.file.filename().string(), written_degC(fit.oil_temperature_K), same_temperature_K, found));
+                  recording.file.filename().string(), written_degC(fit.oil_temperature_K), path_temperature_K, found));
 }
 
 /// The loop at a pressure difference so many times higher, by eq. (2): force in proportion to it, flow to its root;

@@ -8,14 +8,14 @@ namespace spoolflow::calibration {
 namespace {
 
 constexpr int order = 4;
-constexpr int zero_row = sensor::flux_map_currents_below_zero;
+constexpr int no_current_row = sensor::flux_map_currents_below_zero;
 constexpr int columns = sensor::flux_map_positions;
 
 /// The coenergy over the current at one column of positions.
 double coenergy_J(const sensor::FluxLinkage<double>& flux_linkage, int column, double current_A) {
   const auto& map = flux_linkage.map;
   double sum_J = 0;
-  for (int row = zero_row; row + 1 < sensor::flux_map_currents; ++row) {
+  for (int row = no_current_row; row + 1 < sensor::flux_map_currents; ++row) {
     const double from_A = map.row_axis.at(row);
     if (from_A >= current_A) break;
     const double step_A = std::min(map.row_axis.at(row + 1), current_A) - from_A;
@@ -39,7 +39,7 @@ sensor::MagneticForce<double> empty_force_map(double largest_A, double stroke_m)
 
 sensor::MagneticForce<double> force_of_coenergy(const sensor::FluxLinkage<double>& flux_linkage) {
   const auto& flux = flux_linkage.map;
-  const double largest_A = flux.row_axis.at(sensor::flux_map_currents - 1 - zero_row);
+  const double largest_A = flux.row_axis.at(sensor::flux_map_currents - 1 - no_current_row);
   const double stroke_m = flux.column_axis.at(columns - 1) - flux.column_axis.first;
   sensor::MagneticForce<double> out = empty_force_map(largest_A, stroke_m);
   out.map.column_axis.first = flux.column_axis.first;

@@ -9,7 +9,7 @@
 namespace spoolflow::recording {
 namespace {
 
-constexpr std::size_t longest_text = 4096;
+constexpr std::size_t longest_label = 4096;
 
 std::string lower(std::string_view text) {
   std::string out(text);
@@ -44,7 +44,7 @@ std::vector<std::string> rows_of_text(const matvar_t& text) {
   const bool wide = text.data_type == MAT_T_UINT16 || text.data_type == MAT_T_UTF16;
   if (!wide && text.data_type != MAT_T_UINT8 && text.data_type != MAT_T_UTF8 && text.data_type != MAT_T_INT8) return {};
   const std::size_t units = text.nbytes / (wide ? 2 : 1), rows = text.dims[0];
-  if (rows == 0 || units == 0 || units > longest_text || (rows > 1 && units != rows * text.dims[1])) return {};
+  if (rows == 0 || units == 0 || units > longest_label || (rows > 1 && units != rows * text.dims[1])) return {};
   std::vector<std::string> out(rows);
   for (std::size_t k = 0; k < units; ++k) {
     std::string& row = out[k % rows];
@@ -64,7 +64,7 @@ std::vector<std::string> texts_of(matvar_t* text) {
   if (text->class_type != MAT_C_CELL) return rows_of_text(*text);
   std::vector<std::string> out;
   if (text->data == nullptr || text->rank != 2 || text->dims == nullptr) return out;
-  const std::size_t cells = std::min(text->dims[0] * text->dims[1], longest_text);
+  const std::size_t cells = std::min(text->dims[0] * text->dims[1], longest_label);
   for (std::size_t k = 0; k < cells; ++k) {
     const matvar_t* const cell = Mat_VarGetCell(text, static_cast<int>(k));
     std::vector<std::string> rows = cell == nullptr ? std::vector<std::string>() : rows_of_text(*cell);

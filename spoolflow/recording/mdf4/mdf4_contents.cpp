@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t identification_bytes = 64;
 constexpr std::uint64_t longest_record = std::uint64_t{1} << 20U;
-constexpr std::size_t most_channels = 65536;
+constexpr std::size_t most_mdf4_channels = 65536;
 
 void check_version(const FileBytes& file) {
   std::array<std::uint8_t, identification_bytes> raw{};
@@ -148,7 +148,7 @@ class Groups {
     constexpr int deepest = 8;
     while (at != 0) {
       const Mdf4Block block = taken(at, "##CN");
-      if (++channels_ > most_channels) refuse_mdf4(block.what, fmt::format("more than {} channels", most_channels));
+      if (++channels_ > most_mdf4_channels) refuse_mdf4(block.what, fmt::format("more than {} channels", most_mdf4_channels));
       const std::string name = structure + read_text(file_, block.link(2));
       const std::uint64_t inside = block.link(1);
       const bool members = inside != 0 && read_head(file_, inside).id == "##CN";

@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint64_t lead_in_bytes = 28;
 constexpr std::uint64_t unfinished = ~std::uint64_t{0};
 constexpr std::uint64_t longest_metadata = std::uint64_t{64} << 20U;
-constexpr std::size_t most_channels = 65536;
+constexpr std::size_t most_tdms_channels = 65536;
 
 /// What a segment holds, as its lead-in says.
 struct LeadIn {
@@ -201,7 +201,7 @@ class Segments {
   std::size_t channel_of(const std::string& path, const std::vector<std::string>& names) {
     const auto [entry, is_new] = channels_.try_emplace(path, out_.channels.size());
     if (is_new) {
-      if (out_.channels.size() == most_channels) refuse(fmt::format("more than {} channels", most_channels));
+      if (out_.channels.size() == most_tdms_channels) refuse(fmt::format("more than {} channels", most_tdms_channels));
       out_.channels.push_back({names[0], names[1], path});
       last_.emplace_back();
       present_.push_back(false);

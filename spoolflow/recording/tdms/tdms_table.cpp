@@ -15,7 +15,7 @@
 namespace spoolflow::recording {
 namespace {
 
-constexpr std::size_t bytes_at_once = std::size_t{1} << 20U;
+constexpr std::size_t tdms_bytes_at_once = std::size_t{1} << 20U;
 constexpr std::uint64_t time_bytes = 16;
 
 /// Where a column's reading has come to.
@@ -34,7 +34,7 @@ struct Source {
 class TdmsTable final : public VectorTable {
  public:
   explicit TdmsTable(const std::filesystem::path& path)
-      : VectorTable(path.string()), bytes_(path), contents_(read_tdms_contents(bytes_)), buffer_(bytes_at_once) {
+      : VectorTable(path.string()), bytes_(path), contents_(read_tdms_contents(bytes_)), buffer_(tdms_bytes_at_once) {
     find_origin();
     const TdmsProperties& of_file = contents_.of("/");
     for (std::size_t k = 0; k < contents_.channels.size(); ++k) list(k, of_file);

@@ -17,10 +17,10 @@ namespace {
 struct Kind {
   std::string_view what, remedy;
 };
-constexpr std::string_view as_csv =
+constexpr std::string_view export_as_csv =
     "export the recording as CSV: one line of names, such as time_s,current_A,position_mm, above the numbers";
-constexpr Kind json{"JSON", as_csv};
-constexpr Kind xml{"XML or HTML", as_csv};
+constexpr Kind json{"JSON", export_as_csv};
+constexpr Kind xml{"XML or HTML", export_as_csv};
 constexpr Kind source{"source code", "name the recording that the program writes"};
 constexpr Kind bus_log{"a log of bus messages",
                        "decode it with the bus's database, and save the signals as CSV or MDF 4"};
@@ -104,7 +104,7 @@ void refuse_text_without_numbers(const std::vector<std::string_view>& lines, cha
   throw RecordingError(fmt::format(
       "{}: holds no table: none of its first {} lines is a row of numbers that tab, semicolon or comma cut{}; {}", file,
       lines.size(), 2 * blanks > said ? ", and several blanks part its columns: write one sign between two" : "",
-      as_csv));
+      export_as_csv));
 }
 
 }  // namespace spoolflow::recording

@@ -22,7 +22,7 @@ constexpr HeatScale heat_scale({0, 0.5, 1, 2, 4, 8, 16, 32});
 /// Of groups, in the order in which they are met; each cell also carries the group's letters.
 constexpr std::array<const char*, 6> tones{"a", "condensed", "c", "d", "b", "soft"};
 
-constexpr double width_px = 510, height_px = 330, left_px = 44, right_px = 500, upper_px = 8, bottom_px = 286;
+constexpr double map_width_px = 510, height_px = 330, left_px = 44, right_px = 500, upper_px = 8, bottom_px = 286;
 
 /// "FR" for friction, "FM" for force map.
 std::string letters_of(std::string_view group) {
@@ -54,7 +54,7 @@ std::string drawn(const OperatingMap& map, const ReaderUnits& units, const std::
                   const Text& text) {
   const Grid x{map.position_m, units.value(units::length(1)), left_px, right_px};
   const Grid y{map.pressure_difference_Pa, units.value(units::pressure(1)), bottom_px, upper_px};
-  std::string out = fmt::format(R"(<svg viewBox="0 0 {} {}" role="img" aria-label="{}">)", width_px, height_px,
+  std::string out = fmt::format(R"(<svg viewBox="0 0 {} {}" role="img" aria-label="{}">)", map_width_px, height_px,
                                 html_text(description));
   const std::size_t columns = map.position_m.size();
   const bool room = x.edge_px(1) - x.edge_px(0) > 15 && y.edge_px(0) - y.edge_px(1) > 12;

@@ -9,9 +9,9 @@
 namespace spoolflow::report {
 namespace {
 
-constexpr Layout wide{1064, 1};
-constexpr Layout narrow{360, 0.85};
-constexpr Layout half{510, 1};
+constexpr Layout wide_layout{1064, 1};
+constexpr Layout narrow_layout{360, 0.85};
+constexpr Layout half_layout{510, 1};
 
 /// The browser itself refuses whatever a page would fetch.
 constexpr const char* nothing_from_outside =
@@ -59,12 +59,12 @@ std::string HtmlPage::drawings(const CaptionedFigure& figure, const Layout& layo
   return fmt::format("{}<div class=\"wide\">{}</div><div class=\"narrow\">{}</div>",
                      figure.legend.empty() ? legend_of(figure.figure, units_) : figure.legend,
                      svg_of(figure.figure, layout, fmt::format("f{}w", figures_), units_),
-                     svg_of(figure.figure, narrow, fmt::format("f{}n", figures_), units_));
+                     svg_of(figure.figure, narrow_layout, fmt::format("f{}n", figures_), units_));
 }
 
 void HtmlPage::figure(const CaptionedFigure& figure) {
   ++figures_;
-  const std::string drawing = drawings(figure, wide);
+  const std::string drawing = drawings(figure, wide_layout);
   if (figure.live.empty()) {
     body_ += "<figure>" + drawing + caption(figure.caption) + "</figure>\n";
     return;
@@ -77,7 +77,7 @@ void HtmlPage::pair(const std::vector<CaptionedFigure>& figures) {
   body_ += "<div class=\"pair\">";
   for (const CaptionedFigure& figure : figures) {
     ++figures_;
-    body_ += "<figure>" + drawings(figure, half) + caption(figure.caption) + "</figure>\n";
+    body_ += "<figure>" + drawings(figure, half_layout) + caption(figure.caption) + "</figure>\n";
   }
   body_ += "</div>\n";
 }
