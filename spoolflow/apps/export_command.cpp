@@ -41,6 +41,7 @@ struct ExportArguments {
   std::string direction;  ///< empty: all that the model has
   std::string sensors;    ///< of parameters: "observer", "condensed"; empty: both
   std::string target;     ///< of c: a core's name
+  std::string valve;      ///< of ssp: a valve of the virtual rig
 };
 
 /// What is asked for of the model. Throws ModelError where it does not know that direction.
@@ -98,12 +99,30 @@ bool names_valve(const std::string& name) {
   return name.ends_with(".toml") || std::find(presets.begin(), presets.end(), name) != presets.end();
 }
 
+exports::FmiVersion fmi_version(const ExportArguments& arguments) {
+  return arguments.fmi == "3" ? exports::FmiVersion::fmi3 : exports::FmiVersion::fmi2;
+}
+
+void export_ssp(const ExportArguments& arguments) {
+  if (!exports::system_package()) {
+    throw std::runtime_error(
+        "export ssp needs the add-on 'cross', which this program is built without; in the sources `./run export ssp` "
+        "builds it");
+  }
+  if (arguments.valve.empty())
+    throw std::invalid_argument("--valve: name the virtual valve beside the sensor, as for fmu");
+  const rig::ValveUnderTest valve = rig::read_valve_and_campaign(arguments.valve).valve;
+  OutputFile output(arguments.output, {arguments.model, arguments.valve});
+  output.stream() << exports::system_package()(asked_model(arguments), valve, fmi_version(arguments), tool_version());
+  output.commit();
+}
+
 void export_fmu(const ExportArguments& arguments) {
   if (!exports::windows_is_served()) {
     say("the FMU runs on this kind of machine alone: the add-on 'cross' brings libraries for Windows and Arm; in the "
         "sources `./run export fmu` builds it; or compile the FMU's sources there\n");
   }
-  const exports::FmiVersion version = arguments.fmi == "3" ? exports::FmiVersion::fmi3 : exports::FmiVersion::fmi2;
+  const exports::FmiVersion version = fmi_version(arguments);
   if (names_valve(arguments.model)) {
     if (!arguments.direction.empty()) {
       throw model::ModelError(fmt::format("--direction {}: a virtual valve has no direction to choose; leave it away",
@@ -156,11 +175,14 @@ void export_st(const ExportArguments& arguments) {
 void export_asked(const ExportArguments& arguments) {
   if (!arguments.sensors.empty() && arguments.kind != "parameters")
     throw std::invalid_argument(fmt::format("--sensors {}: of parameters alone; leave it away", arguments.sensors));
-  if (!arguments.fmi.empty() && arguments.kind != "fmu")
+  if (!arguments.fmi.empty() && arguments.kind != "fmu" && arguments.kind != "ssp")
     throw std::invalid_argument(fmt::format("--fmi {}: of FMUs alone; leave it away", arguments.fmi));
+  if (!arguments.valve.empty() && arguments.kind != "ssp")
+    throw std::invalid_argument(fmt::format("--valve {}: of ssp alone; leave it away", arguments.valve));
   if (!arguments.target.empty() && arguments.kind != "c")
     throw std::invalid_argument(fmt::format("--target {}: of c alone; leave it away", arguments.target));
   if (arguments.kind == "fmu") return export_fmu(arguments);
+  if (arguments.kind == "ssp") return export_ssp(arguments);
   if (arguments.kind == "cpp" || arguments.kind == "c") return export_folder(arguments);
   if (arguments.kind == "st") return export_st(arguments);
   export_parameters(arguments);
@@ -259,6 +281,7 @@ void add_export_command(CLI::App& program) {
        "size_6, size_10, fast_dither, whole_size_6, whole_differential",
        "fmu: a co-simulation FMU of the sensor, or of the virtual valve, for Linux and Windows (64 bit; by FMI "
        "3.0 for Linux on 64-bit Arm, too), with sources. "
+       "ssp: both FMUs in one file (SSP 1.0), connected with units. "
        "cpp: a folder "
        "with the sensor's headers, the model as constexpr numbers in single precision, an "
        "example and a self-test; files of an earlier export are replaced, all else in the folder stays. "
@@ -268,18 +291,19 @@ void add_export_command(CLI::App& program) {
        "sets the time in it. "
        "st: one file of IEC 61131-3 Structured Text, the condensed sensor as a function block with its tables",
        {"spoolflow export fmu valve_a.json -o sensor.fmu --fmi 3", "spoolflow export fmu size_6 -o valve.fmu --fmi 3",
+        "spoolflow export ssp valve_a.json --valve size_6 -o valve_and_sensor.ssp",
         "spoolflow export cpp valve_a.json -o valve_a_cpp",
         "spoolflow export c valve_a.json --target cortex-m4f -o valve_a_c",
         "spoolflow export parameters valve_a.json -o valve.bin", "spoolflow export st valve_a.json -o valve.st"}});
   command
       ->add_option("kind", arguments->kind,
-                   "fmu: simulation tools; cpp, c: firmware; parameters: a flash page; st: PLC")
+                   "fmu, ssp: simulation tools; cpp, c: firmware; parameters: a flash page; st: PLC")
       ->required()
-      ->check(CLI::IsMember({"fmu", "cpp", "c", "parameters", "st"}));
+      ->check(CLI::IsMember({"fmu", "ssp", "cpp", "c", "parameters", "st"}));
   command->add_option("model", arguments->model, "model file; for fmu also a virtual valve")->required();
   command
       ->add_option("-o,--output", arguments->output,
-                   "file (fmu, parameters, st; - for standard output) or folder (cpp, c)")
+                   "file (fmu, ssp, parameters, st; - for standard output) or folder (cpp, c)")
       ->required();
   command->add_option("--fmi", arguments->fmi, "version of the FMI standard; every importer in use reads 2.0")
       ->check(CLI::IsMember({"2", "3"}))
@@ -292,6 +316,7 @@ void add_export_command(CLI::App& program) {
       ->check(CLI::IsMember({"observer", "condensed"}));
   command->add_option("--target", arguments->target,
                       "core of c: cortex-m4f, cortex-m7, cortex-m33, cortex-m3, cortex-m0plus");
+  command->add_option("--valve", arguments->valve, "of ssp: the virtual valve beside the sensor, as for fmu");
   command->callback([arguments] { export_asked(*arguments); });
 }
 

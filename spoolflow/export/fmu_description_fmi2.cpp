@@ -25,6 +25,7 @@ std::string typed(const Variable& variable) {
   if (!variable.unit.empty()) out += fmt::format(" unit=\"{}\"", variable.unit);
   if (!variable.display_unit.empty()) out += fmt::format(" displayUnit=\"{}\"", variable.display_unit);
   out += limits(variable);
+  if (variable.derivative_of >= 0) out += fmt::format(" derivative=\"{}\"", variable.derivative_of + 1);
   if (has_start) out += fmt::format(" start=\"{}\"", number_text(variable.start));
   return out + "/>";
 }
@@ -39,11 +40,11 @@ std::string scalar_variable(const Variable& variable, std::size_t reference) {
       initial(variable), typed(variable));
 }
 
-/// Outputs by their place among the variables, from 1, with what else is said of each.
-std::string outputs(const std::vector<Variable>& variables, std::string_view more) {
+/// Outputs, or those that are derivatives, by their place among the variables, from 1, with what else is said of each.
+std::string outputs(const std::vector<Variable>& variables, std::string_view more, bool derivatives = false) {
   std::string out;
   for (std::size_t k = 0; k < variables.size(); ++k) {
-    if (variables[k].causality == Causality::output)
+    if (derivatives ? variables[k].derivative_of >= 0 : variables[k].causality == Causality::output)
       out += fmt::format("      <Unknown index=\"{}\"{}/>\n", k + 1, more);
   }
   return out;
@@ -59,6 +60,8 @@ std::string model_description_fmi2(const FmuContent& content) {
   for (const std::string& source : content.sources) files += fmt::format("      <File name=\"{}\"/>\n", source);
   for (std::size_t k = 0; k < content.variables.size(); ++k) variables += scalar_variable(content.variables[k], k);
   const std::string unknowns = outputs(content.variables, no_feedthrough);
+  std::string derivatives = outputs(content.variables, no_feedthrough, true);
+  if (!derivatives.empty()) derivatives = "    <Derivatives>\n" + derivatives + "    </Derivatives>\n";
   const std::string initial_unknowns = outputs(content.variables, "");
   return fmt::format(
       R"(<?xml version="1.0" encoding="UTF-8"?>
@@ -75,14 +78,14 @@ std::string model_description_fmi2(const FmuContent& content) {
   <ModelStructure>
     <Outputs>
 {}    </Outputs>
-    <InitialUnknowns>
+{}    <InitialUnknowns>
 {}    </InitialUnknowns>
   </ModelStructure>
 </fmiModelDescription>
 )",
       xml_text(content.model_name), content.resource.token, xml_text(content.description), content.tool_version,
       content.generation_time, content.identifier, files, unit_definitions(content.variables), log_categories(),
-      number_text(content.stop_s), number_text(content.step_s), variables, unknowns, initial_unknowns);
+      number_text(content.stop_s), number_text(content.step_s), variables, unknowns, derivatives, initial_unknowns);
 }
 
 }  // namespace spoolflow::exports

@@ -41,18 +41,21 @@ std::string variable_element(const Variable& variable, std::size_t reference) {
   if (!variable.unit.empty()) out += fmt::format(" unit=\"{}\"", variable.unit);
   if (!variable.display_unit.empty()) out += fmt::format(" displayUnit=\"{}\"", variable.display_unit);
   if (variable.type != Type::boolean) out += limits(variable);
+  if (variable.derivative_of >= 0) out += fmt::format(" derivative=\"{}\"", variable.derivative_of);
   return out + start(variable) + "/>\n";
 }
 
 }  // namespace
 
 std::string model_description_fmi3(const FmuContent& content) {
-  std::string variables, outputs, initial_unknowns;
+  std::string variables, outputs, derivatives, initial_unknowns;
   for (std::size_t k = 0; k < content.variables.size(); ++k) {
     variables += variable_element(content.variables[k], k);
     if (content.variables[k].causality != Causality::output) continue;
     // An output answers what was set a step ago: none depends on an input of its own instant.
     outputs += fmt::format("    <Output valueReference=\"{}\" dependencies=\"\"/>\n", k);
+    if (content.variables[k].derivative_of >= 0)
+      derivatives += fmt::format("    <ContinuousStateDerivative valueReference=\"{}\" dependencies=\"\"/>\n", k);
     initial_unknowns += fmt::format("    <InitialUnknown valueReference=\"{}\"/>\n", k);
   }
   return fmt::format(
@@ -65,12 +68,12 @@ std::string model_description_fmi3(const FmuContent& content) {
   <ModelVariables>
 {}  </ModelVariables>
   <ModelStructure>
-{}{}  </ModelStructure>
+{}{}{}  </ModelStructure>
 </fmiModelDescription>
 )",
       xml_text(content.model_name), content.resource.token, xml_text(content.description), content.tool_version,
       content.generation_time, content.identifier, unit_definitions(content.variables), log_categories(),
-      number_text(content.stop_s), number_text(content.step_s), variables, outputs, initial_unknowns);
+      number_text(content.stop_s), number_text(content.step_s), variables, outputs, derivatives, initial_unknowns);
 }
 
 std::string build_description(const FmuContent& content) {

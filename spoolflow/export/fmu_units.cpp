@@ -26,7 +26,7 @@ struct KnownUnit {
   std::array<DisplayUnit, 2> display{};
 };
 
-const std::array<KnownUnit, 14> known_units{{
+const std::array<KnownUnit, 15> known_units{{
     {"s", R"( s="1")", {{{"ms", 1e3}}}},
     {"Hz", R"( s="-1")"},
     {"A", R"( A="1")"},
@@ -37,27 +37,37 @@ const std::array<KnownUnit, 14> known_units{{
     {"Pa", R"( kg="1" m="-1" s="-2")", {{{"bar", 1 / units::pascal_per_bar}}}},
     {"N", R"( kg="1" m="1" s="-2")"},
     {"m/K", R"( m="1" K="-1")", {{{"um/K", 1e6}}}},
+    {"m/s", R"( m="1" s="-1")"},
     {"m/s2", R"( m="1" s="-2")"},
     {"Pa/s(1/2)", "none", {{{"bar/s(1/2)", 1 / units::pascal_per_bar}}}},
     {"Ohm/s(1/2)", "none"},
     {"1", ""},
 }};
 
+const KnownUnit& known_unit(std::string_view name) {
+  const auto unit = std::find_if(known_units.begin(), known_units.end(),
+                                 [&](const KnownUnit& each) { return each.name == name; });
+  if (unit == known_units.end()) throw std::logic_error("no definition of the unit " + std::string(name));
+  return *unit;
+}
+
 }  // namespace
+
+std::string_view base_unit(std::string_view unit) {
+  return known_unit(unit).base;
+}
 
 std::string unit_definitions(const std::vector<fmu::Variable>& variables) {
   std::set<std::string_view> used;
   for (const fmu::Variable& variable : variables) {
     if (variable.unit.empty()) continue;
-    const auto unit = std::find_if(known_units.begin(), known_units.end(),
-                                   [&](const KnownUnit& each) { return each.name == variable.unit; });
-    if (unit == known_units.end()) throw std::logic_error("no definition of the unit " + variable.unit);
+    const KnownUnit& unit = known_unit(variable.unit);
     if (!variable.display_unit.empty() &&
-        std::none_of(unit->display.begin(), unit->display.end(),
+        std::none_of(unit.display.begin(), unit.display.end(),
                      [&](const DisplayUnit& each) { return each.name == variable.display_unit; })) {
       throw std::logic_error("no definition of the display unit " + variable.display_unit);
     }
-    used.insert(unit->name);
+    used.insert(unit.name);
   }
   std::string out = "  <UnitDefinitions>\n";
   for (const KnownUnit& unit : known_units) {

@@ -70,7 +70,7 @@ std::string notes(const model::Model& model, std::string_view estimator) {
 
 }  // namespace
 
-std::string sensor_fmu(const model::Model& model, FmiVersion version, std::string_view tool_version) {
+FmuContent sensor_fmu_content(const model::Model& model, std::string_view tool_version) {
   const char* const estimator = model.has_observer() ? "observer" : "condensed";
   FmuContent content;
   content.identifier = "spoolflow_sensor";
@@ -85,7 +85,12 @@ std::string sensor_fmu(const model::Model& model, FmiVersion version, std::strin
   content.resource.name = model.valve.name;
   fill_from(content, model);
   content.sources = translation_units(sensor_fmu_sources());
-  return fmu_archive(std::move(content), embedded_parts("sensor_fmu", sensor_fmu_sources()), version);
+  return content;
+}
+
+std::string sensor_fmu(const model::Model& model, FmiVersion version, std::string_view tool_version) {
+  return fmu_archive(sensor_fmu_content(model, tool_version), embedded_parts("sensor_fmu", sensor_fmu_sources()),
+                     version);
 }
 
 }  // namespace spoolflow::exports

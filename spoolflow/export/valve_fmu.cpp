@@ -48,7 +48,7 @@ std::string notes(const rig::ValveUnderTest& valve) {
 
 }  // namespace
 
-std::string valve_fmu(const rig::ValveUnderTest& valve, FmiVersion version, std::string_view tool_version) {
+FmuContent valve_fmu_content(const rig::ValveUnderTest& valve, std::string_view tool_version) {
   const rig::ValveUnderTest built = rig::as_built(valve);
   const fmu::VirtualValve inside{built.plant, built.electronics, built.instruments};
   const double rated_flow_m3_per_s = units::m3_per_s_from_L_per_min(built.rating.flow_L_per_min);
@@ -67,7 +67,16 @@ std::string valve_fmu(const rig::ValveUnderTest& valve, FmiVersion version, std:
   const std::vector<double> numbers = fmu::numbers_of(inside);
   content.resource.numbers.insert(content.resource.numbers.end(), numbers.begin(), numbers.end());
   content.sources = translation_units(valve_fmu_sources());
-  return fmu_archive(std::move(content), embedded_parts("valve_fmu", valve_fmu_sources()), version);
+  return content;
+}
+
+std::string valve_fmu(const rig::ValveUnderTest& valve, FmiVersion version, std::string_view tool_version) {
+  return fmu_archive(valve_fmu_content(valve, tool_version), embedded_parts("valve_fmu", valve_fmu_sources()), version);
+}
+
+SystemPackage& system_package() {
+  static SystemPackage of_the_program;
+  return of_the_program;
 }
 
 }  // namespace spoolflow::exports

@@ -130,6 +130,10 @@ void check_variables(const UnpackedFmu& fmu, Violations& out) {
   if (independent != 1) out.push_back(fmt::format("{} independent variables, there is one time", independent));
 }
 
+bool derives(const std::string& unit, const std::string& of) {
+  return unit == of + "/s" || (of.ends_with("/s") && unit == of + "2");
+}
+
 void check_structure(const UnpackedFmu& fmu, Violations& out) {
   const bool fmi2 = fmu.version() == FmiVersion::fmi2;
   Violations wanted;
@@ -137,14 +141,26 @@ void check_structure(const UnpackedFmu& fmu, Violations& out) {
     const XmlElement& variable = fmu.variables()[k];
     if (variable["causality"] == "output") wanted.push_back(fmi2 ? std::to_string(k + 1) : variable["valueReference"]);
   }
-  Violations outputs, initial;
+  Violations outputs, initial, derivatives, declared;
+  for (std::size_t k = 0; k < fmu.variables().size(); ++k) {
+    const XmlElement& variable = fmu.variables()[k];
+    if (!variable.has("derivative")) continue;
+    declared.push_back(fmi2 ? std::to_string(k + 1) : variable["valueReference"]);
+    const std::size_t state = std::stoul(variable["derivative"]) - (fmi2 ? 1 : 0);
+    const XmlElement& of = fmu.variables().at(state);
+    if (!derives(variable["unit"], of["unit"]) || of["variability"] != "continuous" || state == k)
+      out.push_back(variable["name"] + " is no derivative of " + of["name"]);
+  }
   for (const XmlElement& element : fmu.description()) {
     const std::string where = element.path.substr(0, element.path.rfind('/'));
     if (fmi2 && where.ends_with("/Outputs")) outputs.push_back(element["index"]);
     if (fmi2 && where.ends_with("/InitialUnknowns")) initial.push_back(element["index"]);
+    if (fmi2 && where.ends_with("/Derivatives")) derivatives.push_back(element["index"]);
+    if (!fmi2 && element.name == "ContinuousStateDerivative") derivatives.push_back(element["valueReference"]);
     if (!fmi2 && element.name == "Output") outputs.push_back(element["valueReference"]);
     if (!fmi2 && element.name == "InitialUnknown") initial.push_back(element["valueReference"]);
   }
+  if (derivatives != declared) out.push_back("ModelStructure does not list exactly the derivatives, in order");
   if (outputs != wanted) out.push_back("ModelStructure does not list exactly the outputs, in order");
   if (initial != wanted) out.push_back("the initial unknowns are not the calculated outputs, in order");
 }

@@ -1,7 +1,9 @@
 #include "spoolflow/export/valve_fmu.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -42,6 +44,36 @@ class ValveFmu : public ::testing::TestWithParam<FmiVersion> {
 
 TEST_P(ValveFmu, KeepsTheRulesOfTheStandard) {
   EXPECT_THAT(description_violations(fmu), IsEmpty());
+}
+
+TEST_P(ValveFmu, DeclaresVelocityAndAccelerationAsTheDerivativesThatTheyAre) {
+  std::map<std::string, std::string> derivative_of;
+  const std::size_t from = GetParam() == FmiVersion::fmi2 ? 1 : 0;  // by place from 1, or by reference
+  for (const XmlElement& variable : fmu.variables()) {
+    if (variable.has("derivative"))
+      derivative_of[variable["name"]] = fmu.variables().at(std::stoul(variable["derivative"]) - from)["name"];
+  }
+  EXPECT_EQ(derivative_of, (std::map<std::string, std::string>{{"true_velocity", "true_position"},
+                                                               {"true_acceleration", "true_velocity"},
+                                                               {"cylinder_velocity", "cylinder_position"}}));
+  // The trapezoid over samples of 0.1 ms, while the spool crosses most of its stroke.
+  auto valve = library.instantiate(log);
+  valve->put("sample_step", 1e-4);
+  ASSERT_EQ(valve->enter_initialization(0), FmuStatus::ok);
+  ASSERT_EQ(valve->exit_initialization(), FmuStatus::ok);
+  valve->put("position_set", 1.5e-3);
+  double position_m = 0, velocity_m_per_s = 0, fastest_m_per_s = 0, velocity_before = 0, acceleration_before = 0;
+  for (int k = 0; k < 1000; ++k) {
+    ASSERT_EQ(valve->step(1e-4 * k, 1e-4), FmuStatus::ok);
+    position_m += 0.5e-4 * (velocity_before + valve->value("true_velocity"));
+    velocity_m_per_s += 0.5e-4 * (acceleration_before + valve->value("true_acceleration"));
+    velocity_before = valve->value("true_velocity"), acceleration_before = valve->value("true_acceleration");
+    fastest_m_per_s = std::max(fastest_m_per_s, velocity_before);
+    ASSERT_NEAR(velocity_m_per_s, velocity_before, 0.02) << k;
+  }
+  EXPECT_GT(fastest_m_per_s, 0.04);
+  EXPECT_GT(valve->value("true_position"), 1e-3);
+  EXPECT_NEAR(position_m, valve->value("true_position"), 5e-6);
 }
 
 TEST_P(ValveFmu, RefusesASetPositionInMetresThatWasMeantInMillimetres) {

@@ -6,6 +6,13 @@ using spoolflow::exports::fmu::Fmi3Instance;
 using spoolflow::exports::fmu::not_offered_in_fmi3;
 using std::size_t;
 
+/// Defines a function of the standard that answers that it is not offered; its arguments after the instance follow its
+/// name.
+#define SPOOLFLOW_NOT_IN_FMI3(function, ...)                                          \
+  SPOOLFLOW_FMI fmi3Status function(fmi3Instance handle __VA_OPT__(, ) __VA_ARGS__) { \
+    return not_offered_in_fmi3(handle, #function);                                    \
+  }
+
 namespace {
 
 /// An instance of a kind that this FMU is not.
@@ -29,138 +36,49 @@ SPOOLFLOW_FMI fmi3Instance fmi3InstantiateScheduledExecution(fmi3String, fmi3Str
   return refused(environment, logger);
 }
 
-SPOOLFLOW_FMI fmi3Status fmi3EnterEventMode(fmi3Instance handle) {
-  return not_offered_in_fmi3(handle, "fmi3EnterEventMode");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance handle, fmi3ValueReference, size_t*) {
-  return not_offered_in_fmi3(handle, "fmi3GetNumberOfVariableDependencies");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3GetVariableDependencies(fmi3Instance handle, fmi3ValueReference, size_t[],
-                                                     fmi3ValueReference[], size_t[], fmi3DependencyKind[], size_t) {
-  return not_offered_in_fmi3(handle, "fmi3GetVariableDependencies");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3GetDirectionalDerivative(fmi3Instance handle, const fmi3ValueReference[], size_t,
-                                                      const fmi3ValueReference[], size_t, const fmi3Float64[], size_t,
-                                                      fmi3Float64[], size_t) {
-  return not_offered_in_fmi3(handle, "fmi3GetDirectionalDerivative");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3GetAdjointDerivative(fmi3Instance handle, const fmi3ValueReference[], size_t,
-                                                  const fmi3ValueReference[], size_t, const fmi3Float64[], size_t,
-                                                  fmi3Float64[], size_t) {
-  return not_offered_in_fmi3(handle, "fmi3GetAdjointDerivative");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3EnterConfigurationMode(fmi3Instance handle) {
-  return not_offered_in_fmi3(handle, "fmi3EnterConfigurationMode");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3ExitConfigurationMode(fmi3Instance handle) {
-  return not_offered_in_fmi3(handle, "fmi3ExitConfigurationMode");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3GetOutputDerivatives(fmi3Instance handle, const fmi3ValueReference[], size_t,
-                                                  const fmi3Int32[], fmi3Float64[], size_t) {
-  return not_offered_in_fmi3(handle, "fmi3GetOutputDerivatives");
-}
+SPOOLFLOW_NOT_IN_FMI3(fmi3EnterEventMode);
+SPOOLFLOW_NOT_IN_FMI3(fmi3GetNumberOfVariableDependencies, fmi3ValueReference, size_t*);
+SPOOLFLOW_NOT_IN_FMI3(fmi3GetVariableDependencies, fmi3ValueReference, size_t[], fmi3ValueReference[], size_t[],
+                      fmi3DependencyKind[], size_t);
+SPOOLFLOW_NOT_IN_FMI3(fmi3GetDirectionalDerivative, const fmi3ValueReference[], size_t, const fmi3ValueReference[],
+                      size_t, const fmi3Float64[], size_t, fmi3Float64[], size_t);
+SPOOLFLOW_NOT_IN_FMI3(fmi3GetAdjointDerivative, const fmi3ValueReference[], size_t, const fmi3ValueReference[], size_t,
+                      const fmi3Float64[], size_t, fmi3Float64[], size_t);
+SPOOLFLOW_NOT_IN_FMI3(fmi3EnterConfigurationMode);
+SPOOLFLOW_NOT_IN_FMI3(fmi3ExitConfigurationMode);
+SPOOLFLOW_NOT_IN_FMI3(fmi3GetOutputDerivatives, const fmi3ValueReference[], size_t, const fmi3Int32[], fmi3Float64[],
+                      size_t);
 
 // Clocks and events.
 
-SPOOLFLOW_FMI fmi3Status fmi3GetIntervalDecimal(fmi3Instance handle, const fmi3ValueReference[], size_t, fmi3Float64[],
-                                                fmi3IntervalQualifier[]) {
-  return not_offered_in_fmi3(handle, "fmi3GetIntervalDecimal");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3GetIntervalFraction(fmi3Instance handle, const fmi3ValueReference[], size_t, fmi3UInt64[],
-                                                 fmi3UInt64[], fmi3IntervalQualifier[]) {
-  return not_offered_in_fmi3(handle, "fmi3GetIntervalFraction");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3GetShiftDecimal(fmi3Instance handle, const fmi3ValueReference[], size_t, fmi3Float64[]) {
-  return not_offered_in_fmi3(handle, "fmi3GetShiftDecimal");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3GetShiftFraction(fmi3Instance handle, const fmi3ValueReference[], size_t, fmi3UInt64[],
-                                              fmi3UInt64[]) {
-  return not_offered_in_fmi3(handle, "fmi3GetShiftFraction");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3SetIntervalDecimal(fmi3Instance handle, const fmi3ValueReference[], size_t,
-                                                const fmi3Float64[]) {
-  return not_offered_in_fmi3(handle, "fmi3SetIntervalDecimal");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3SetIntervalFraction(fmi3Instance handle, const fmi3ValueReference[], size_t,
-                                                 const fmi3UInt64[], const fmi3UInt64[]) {
-  return not_offered_in_fmi3(handle, "fmi3SetIntervalFraction");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3SetShiftDecimal(fmi3Instance handle, const fmi3ValueReference[], size_t,
-                                             const fmi3Float64[]) {
-  return not_offered_in_fmi3(handle, "fmi3SetShiftDecimal");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3SetShiftFraction(fmi3Instance handle, const fmi3ValueReference[], size_t,
-                                              const fmi3UInt64[], const fmi3UInt64[]) {
-  return not_offered_in_fmi3(handle, "fmi3SetShiftFraction");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance handle) {
-  return not_offered_in_fmi3(handle, "fmi3EvaluateDiscreteStates");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3UpdateDiscreteStates(fmi3Instance handle, fmi3Boolean*, fmi3Boolean*, fmi3Boolean*,
-                                                  fmi3Boolean*, fmi3Boolean*, fmi3Float64*) {
-  return not_offered_in_fmi3(handle, "fmi3UpdateDiscreteStates");
-}
+SPOOLFLOW_NOT_IN_FMI3(fmi3GetIntervalDecimal, const fmi3ValueReference[], size_t, fmi3Float64[],
+                      fmi3IntervalQualifier[]);
+SPOOLFLOW_NOT_IN_FMI3(fmi3GetIntervalFraction, const fmi3ValueReference[], size_t, fmi3UInt64[], fmi3UInt64[],
+                      fmi3IntervalQualifier[]);
+SPOOLFLOW_NOT_IN_FMI3(fmi3GetShiftDecimal, const fmi3ValueReference[], size_t, fmi3Float64[]);
+SPOOLFLOW_NOT_IN_FMI3(fmi3GetShiftFraction, const fmi3ValueReference[], size_t, fmi3UInt64[], fmi3UInt64[]);
+SPOOLFLOW_NOT_IN_FMI3(fmi3SetIntervalDecimal, const fmi3ValueReference[], size_t, const fmi3Float64[]);
+SPOOLFLOW_NOT_IN_FMI3(fmi3SetIntervalFraction, const fmi3ValueReference[], size_t, const fmi3UInt64[],
+                      const fmi3UInt64[]);
+SPOOLFLOW_NOT_IN_FMI3(fmi3SetShiftDecimal, const fmi3ValueReference[], size_t, const fmi3Float64[]);
+SPOOLFLOW_NOT_IN_FMI3(fmi3SetShiftFraction, const fmi3ValueReference[], size_t, const fmi3UInt64[], const fmi3UInt64[]);
+SPOOLFLOW_NOT_IN_FMI3(fmi3EvaluateDiscreteStates);
+SPOOLFLOW_NOT_IN_FMI3(fmi3UpdateDiscreteStates, fmi3Boolean*, fmi3Boolean*, fmi3Boolean*, fmi3Boolean*, fmi3Boolean*,
+                      fmi3Float64*);
 
 // Model exchange.
 
-SPOOLFLOW_FMI fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance handle) {
-  return not_offered_in_fmi3(handle, "fmi3EnterContinuousTimeMode");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3CompletedIntegratorStep(fmi3Instance handle, fmi3Boolean, fmi3Boolean*, fmi3Boolean*) {
-  return not_offered_in_fmi3(handle, "fmi3CompletedIntegratorStep");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3SetTime(fmi3Instance handle, fmi3Float64) {
-  return not_offered_in_fmi3(handle, "fmi3SetTime");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3SetContinuousStates(fmi3Instance handle, const fmi3Float64[], size_t) {
-  return not_offered_in_fmi3(handle, "fmi3SetContinuousStates");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance handle, fmi3Float64[], size_t) {
-  return not_offered_in_fmi3(handle, "fmi3GetContinuousStateDerivatives");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3GetEventIndicators(fmi3Instance handle, fmi3Float64[], size_t) {
-  return not_offered_in_fmi3(handle, "fmi3GetEventIndicators");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3GetContinuousStates(fmi3Instance handle, fmi3Float64[], size_t) {
-  return not_offered_in_fmi3(handle, "fmi3GetContinuousStates");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance handle, fmi3Float64[], size_t) {
-  return not_offered_in_fmi3(handle, "fmi3GetNominalsOfContinuousStates");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance handle, size_t*) {
-  return not_offered_in_fmi3(handle, "fmi3GetNumberOfEventIndicators");
-}
-
-SPOOLFLOW_FMI fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance handle, size_t*) {
-  return not_offered_in_fmi3(handle, "fmi3GetNumberOfContinuousStates");
-}
+SPOOLFLOW_NOT_IN_FMI3(fmi3EnterContinuousTimeMode);
+SPOOLFLOW_NOT_IN_FMI3(fmi3CompletedIntegratorStep, fmi3Boolean, fmi3Boolean*, fmi3Boolean*);
+SPOOLFLOW_NOT_IN_FMI3(fmi3SetTime, fmi3Float64);
+SPOOLFLOW_NOT_IN_FMI3(fmi3SetContinuousStates, const fmi3Float64[], size_t);
+SPOOLFLOW_NOT_IN_FMI3(fmi3GetContinuousStateDerivatives, fmi3Float64[], size_t);
+SPOOLFLOW_NOT_IN_FMI3(fmi3GetEventIndicators, fmi3Float64[], size_t);
+SPOOLFLOW_NOT_IN_FMI3(fmi3GetContinuousStates, fmi3Float64[], size_t);
+SPOOLFLOW_NOT_IN_FMI3(fmi3GetNominalsOfContinuousStates, fmi3Float64[], size_t);
+SPOOLFLOW_NOT_IN_FMI3(fmi3GetNumberOfEventIndicators, size_t*);
+SPOOLFLOW_NOT_IN_FMI3(fmi3GetNumberOfContinuousStates, size_t*);
 
 // Scheduled execution.
 
-SPOOLFLOW_FMI fmi3Status fmi3ActivateModelPartition(fmi3Instance handle, fmi3ValueReference, fmi3Float64) {
-  return not_offered_in_fmi3(handle, "fmi3ActivateModelPartition");
-}
+SPOOLFLOW_NOT_IN_FMI3(fmi3ActivateModelPartition, fmi3ValueReference, fmi3Float64);

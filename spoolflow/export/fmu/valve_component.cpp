@@ -176,6 +176,9 @@ class ValveComponent : public Component {
     values[valve_pressure_A] = truth.pressure_A_Pa;
     values[valve_pressure_B] = truth.pressure_B_Pa;
     values[valve_cylinder_position] = truth.cylinder_position_m;
+    values[valve_true_velocity] = truth.velocity_m_per_s;
+    values[valve_true_acceleration] = truth.acceleration_m_per_s2;
+    values[valve_cylinder_velocity] = truth.cylinder_velocity_m_per_s;
   }
 
   std::uint64_t identity_;

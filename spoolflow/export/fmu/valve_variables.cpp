@@ -16,6 +16,13 @@ Variable tunable(const char* name, const char* description, const char* unit, co
           .highest = highest};
 }
 
+/// A true value whose integral over time is the output at the place `of`.
+Variable derivative(const char* name, const char* description, const char* unit, double nominal, ValveReference of) {
+  Variable out = output(name, description, unit, "", nominal);
+  out.derivative_of = static_cast<int>(of);
+  return out;
+}
+
 /// A set position further than so many strokes is a mistake in its unit.
 constexpr double furthest_set = 1.5;
 
@@ -87,7 +94,11 @@ std::vector<Variable> valve_variables(const VirtualValve& valve, double rated_fl
       output("current_a", "measured current of the coil that opens P to A, mean over the sample step", "A", "", 1),
       output("current_b", "measured current of the coil that opens P to B, mean over the sample step", "A", "", 1),
       output("voltage_a", "measured voltage of the coil that opens P to A, mean over the sample step", "V", "", 10),
-      output("voltage_b", "measured voltage of the coil that opens P to B, mean over the sample step", "V", "", 10)};
+      output("voltage_b", "measured voltage of the coil that opens P to B, mean over the sample step", "V", "", 10),
+      derivative("true_velocity", "true velocity of the spool", "m/s", 0.1, valve_true_position),
+      derivative("true_acceleration", "true acceleration of the spool", "m/s2", 100, valve_true_velocity),
+      derivative("cylinder_velocity", "velocity of the cylinder (load: cylinder)", "m/s", 0.1,
+                 valve_cylinder_position)};
 }
 
 }  // namespace spoolflow::exports::fmu

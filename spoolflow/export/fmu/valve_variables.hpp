@@ -39,7 +39,10 @@ enum ValveReference : std::uint32_t {
   valve_current_a,
   valve_current_b,
   valve_voltage_a,
-  valve_voltage_b
+  valve_voltage_b,
+  valve_true_velocity,
+  valve_true_acceleration,
+  valve_cylinder_velocity
 };
 
 [[nodiscard]] std::vector<Variable> valve_variables(const VirtualValve& valve, double rated_flow_m3_per_s);

@@ -27,6 +27,7 @@ struct Variable {
   double lowest = no_limit;
   double highest = no_limit;
   double nominal = no_limit;  ///< the size that the value usually has
+  int derivative_of = -1;     ///< in time, of the variable at that place; -1: of none
 };
 
 /// A real input; `start` and `nominal` in the unit.
