@@ -112,7 +112,7 @@ class Update {
   }
 
   void find_friction(const WearView& from) {
-    const Change friction = friction_change(evidence_, from);
+    const Change friction = friction_change(evidence_, from, edge_change(evidence_, from));
     const double ratio = std::exp(friction.value);
     const std::string best = fmt::format("{:+.0f} %", percent * (ratio - 1));
     if (!friction.taken) {

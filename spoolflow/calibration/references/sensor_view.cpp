@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "spoolflow/calibration/references/oil_ratios.hpp"
 #include "spoolflow/estimation/columns.hpp"
 #include "spoolflow/numerics/median.hpp"
 #include "spoolflow/sensor/observer.hpp"
@@ -47,13 +49,29 @@ class RunView {
   std::size_t first_ = 0;           ///< that is not over
 };
 
+/// Innovations of the sensor's samples, squared and over what they usually are, taken back out of its average.
+class Innovations {
+ public:
+  /// Of the sample that came `step_s` after the last, > 0; nothing where the spool does not slide.
+  std::optional<double> next(double average, double step_s) {
+    const double before = std::exchange(average_, average);
+    if (average == before) return {};
+    const double share = std::min(step_s / sensor::innovation_averaging_s, 1.0);
+    return std::max(0.0, before + (average - before) / share) / sensor::usual_innovation_squared;
+  }
+
+ private:
+  double average_ = sensor::usual_innovation_squared;
+};
+
 }  // namespace
 
 SensorView view_through(const sensor::ObserverParameters<double>& valve, double rated_flow_m3_per_s,
                         const std::vector<WatchedRun>& runs) {
-  SensorView out{{}, 0, 0};
+  SensorView out{{}, 0};
   for (const WatchedRun& run : runs) {
     RunView sums(run);
+    Innovations innovations;
     estimation::RunningSensor sensor(&valve, rated_flow_m3_per_s);
     const estimation::Columns columns = columns_of(*run.recording);
     const double begin_s = columns.time_s.front();
@@ -63,13 +81,11 @@ SensorView view_through(const sensor::ObserverParameters<double>& valve, double 
       if (!(step_s > 0)) return;
       sums.add(before_s, now_s, answer.flow_m3_per_s);
       before_s = now_s;
-      if (now_s - begin_s < settling_s) return;
-      out.innovation_squared += step_s * sensor.state().observer.pressure.innovation_squared;
-      out.watched_s += step_s;
+      const auto squared = innovations.next(sensor.state().observer.pressure.innovation_squared, step_s);
+      if (squared && now_s - begin_s >= settling_s) out.sliding_loss_s += step_s * interval_loss(std::sqrt(*squared));
     });
     out.volume_m3.insert(out.volume_m3.end(), sums.volume_m3().begin(), sums.volume_m3().end());
   }
-  if (out.watched_s > 0) out.innovation_squared /= out.watched_s;
   return out;
 }
 

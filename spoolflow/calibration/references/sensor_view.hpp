@@ -16,8 +16,7 @@ struct WatchedRun {
 
 struct SensorView {
   std::vector<double> volume_m3;  ///< the sensor's, of each interval, run after run
-  double innovation_squared;      ///< mean of its normalised innovations squared
-  double watched_s;               ///< over which that is the mean; 0: no run is long enough
+  double sliding_loss_s;          ///< interval_loss() of the innovations, over the time in which the spool slides
 };
 
 /// All runs through the sensor with these parameters, each from its beginning.

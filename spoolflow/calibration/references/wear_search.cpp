@@ -40,6 +40,20 @@ struct Parabola {
   }
 };
 
+/// What is to be expected of a change that reads `value` within `deviation` where wear makes it `usual` large.
+Change of_measured(double value, double deviation, double usual) {
+  const double kept = usual * usual / (usual * usual + deviation * deviation);
+  return {kept * value, std::sqrt(kept) * deviation, evidence_of_change(value, deviation, usual)};
+}
+
+/// The same view with the edges so wide that the sensor's volumes are those of the references; wear does not narrow
+/// them.
+WearView with_asked_edges(const MachineEvidence& evidence, WearView view, const std::vector<bool>& used) {
+  constexpr double width_per_volume = 2, most = 0.2;
+  const double asked = std::clamp(width_per_volume * agreement_of(evidence, view).log_ratio, 0.0, most);
+  return asked > 0 ? seen_with(evidence, with_edge(view.wear, asked), used) : view;
+}
+
 }  // namespace
 
 double evidence_of_change(double value, double deviation, double usual) {
@@ -62,28 +76,8 @@ WearView seen_with(const MachineEvidence& evidence, const model::WearState& wear
   if (used.empty()) leave_out_apart(out.ratios);
   for (std::size_t k = 0; k < used.size(); ++k) out.ratios[k].used = out.ratios[k].used && used[k];
   for (std::size_t r = 0; r < evidence.references.size(); ++r) out.loss += level_of(out.ratios, r).loss;
-  if (view.watched_s > 0)
-    out.loss += 0.5 * view.watched_s / innovation_memory_s * std::log(std::max(view.innovation_squared, 1e-6));
+  out.loss += view.sliding_loss_s / innovation_memory_s;
   return out;
-}
-
-Change friction_change(const MachineEvidence& evidence, const WearView& from) {
-  constexpr double step = 0.1, furthest = 1.0;
-  const std::vector<bool> used = used_of(from);
-  const auto loss_at = [&](double log_ratio) {
-    const double prior = log_ratio / friction_wear;
-    return seen_with(evidence, with_friction(from.wear, log_ratio), used).loss + 0.5 * prior * prior;
-  };
-  Parabola at{0, step, {loss_at(-step), from.loss, loss_at(step)}};
-  while (at.loss[2] < at.loss[1] && at.middle < furthest)
-    at = {at.middle + step, step, {at.loss[1], at.loss[2], loss_at(at.middle + 2 * step)}};
-  while (at.loss[0] < at.loss[1] && at.middle > -furthest)
-    at = {at.middle - step, step, {loss_at(at.middle - 2 * step), at.loss[0], at.loss[1]}};
-  const double value = at.vertex(),
-               deviation = 1 / std::sqrt(std::max(at.curvature(), 1 / (friction_wear * friction_wear)));
-  const double gain =
-      from.loss - std::min(loss_at(value), at.loss[1]) - std::log(friction_wear / std::min(deviation, friction_wear));
-  return {value, std::max(deviation, least_friction_share), gain, gain > change_evidence};
 }
 
 OilAgreement agreement_of(const MachineEvidence& evidence, const WearView& view) {
@@ -106,15 +100,32 @@ Change edge_change(const MachineEvidence& evidence, const WearView& from) {
   const std::vector<bool> used = used_of(from);
   const double turn = here.log_ratio < 0 ? -edge_wear : edge_wear;
   const OilAgreement there = agreement_of(evidence, seen_with(evidence, with_edge(from.wear, turn), used));
-  const double slope =
-      (here.log_ratio - there.log_ratio) / turn;  // of the sensor's volume over the width, about a half
-  constexpr double least_slope = 0.2;             // less is not oil that an edge passes
+  const double slope = (here.log_ratio - there.log_ratio) / turn;  // of the sensor's volume over the width
+  constexpr double least_slope = 0.2;                              // less is not oil that an edge passes
   if (!(slope > least_slope)) return {};
-  const double deviation = here.deviation / slope, best = here.log_ratio / slope;
-  const double gain = evidence_of_change(best, deviation, edge_wear);
-  const bool worn_already = from.wear != model::WearState{};
-  const double kept = edge_wear * edge_wear / (edge_wear * edge_wear + deviation * deviation);
-  return {kept * best, std::sqrt(kept) * deviation, gain, best > 0 && (worn_already || gain > change_evidence)};
+  Change out = of_measured(here.log_ratio / slope, here.deviation / slope, edge_wear);
+  const bool possible = with_edge(from.wear, out.value).edge_width > 0;
+  out.taken = possible && (out.evidence > change_evidence || from.wear != model::WearState{});
+  return out;
+}
+
+Change friction_change(const MachineEvidence& evidence, const WearView& from, const Change& edges) {
+  constexpr double step = 0.1, furthest = 1.0;
+  const std::vector<bool> used = used_of(from);
+  const auto loss_at = [&](double log_ratio) {
+    return with_asked_edges(evidence, seen_with(evidence, with_friction(from.wear, log_ratio), used), used).loss;
+  };
+  Parabola at{0, step, {loss_at(-step), loss_at(0), loss_at(step)}};
+  while (at.loss[2] < at.loss[1] && at.middle < furthest)
+    at = {at.middle + step, step, {at.loss[1], at.loss[2], loss_at(at.middle + 2 * step)}};
+  while (at.loss[0] < at.loss[1] && at.middle > -furthest)
+    at = {at.middle - step, step, {loss_at(at.middle - 2 * step), at.loss[0], at.loss[1]}};
+  constexpr double hardly_known = 4 * friction_wear;
+  const double deviation = 1 / std::sqrt(std::max(at.curvature(), 1 / (hardly_known * hardly_known)));
+  Change out = of_measured(at.vertex(), std::hypot(deviation, model_friction_share), friction_wear);
+  const double beside = edges.value > 0 ? std::max(edges.evidence, 0.0) : 0;
+  out.taken = out.evidence + beside > change_evidence || from.wear != model::WearState{};
+  return out;
 }
 
 }  // namespace spoolflow::calibration

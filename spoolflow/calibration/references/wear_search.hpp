@@ -11,14 +11,13 @@ namespace spoolflow::calibration {
 
 /// One standard deviation of what wear changes between two looks at a valve.
 inline constexpr double edge_wear = 0.06, friction_wear = 0.25, position_zero_wear_m = 15e-6;
-/// Of a healthy valve's model: what its volumes all have in common, and where its sensor reads closed.
-inline constexpr double model_volume_share = 0.01, closed_uncertainty_m = 4e-6;
+/// Of a healthy valve's model: what its volumes all have in common, its friction in operation, and where its sensor
+/// reads closed.
+inline constexpr double model_volume_share = 0.01, model_friction_share = 0.05, closed_uncertainty_m = 4e-6;
 /// Innovations so far apart count as independent.
-inline constexpr double innovation_memory_s = 1;
+inline constexpr double innovation_memory_s = 0.05;
 /// A change is taken where it is so many times as likely as none, in natural logarithms, its prior width counted.
 inline constexpr double change_evidence = 1.6;
-/// Friction is known no better than so, a share.
-inline constexpr double least_friction_share = 0.05;
 /// Of a reference's intervals, the share that may contradict the others.
 inline constexpr double most_left_out = 0.4;
 inline constexpr double percent = 100;  ///< a share of 1
@@ -56,10 +55,6 @@ struct Change {
 [[nodiscard]] WearView seen_with(const MachineEvidence& evidence, const model::WearState& wear,
                                  const std::vector<bool>& used);
 
-/// Friction in operation, as the logarithm of its ratio to that of `from`: where innovations and the scatter of the
-/// references' volumes are least.
-[[nodiscard]] Change friction_change(const MachineEvidence& evidence, const WearView& from);
-
 /// What all references together say of the oil beside the sensor's, logarithm of the ratio. The deviation holds their
 /// own, their stated and the model's.
 struct OilAgreement {
@@ -69,7 +64,12 @@ struct OilAgreement {
 
 /// Width of the edges, as the logarithm of its ratio to that of `from`. Of a valve that shows other wear it needs no
 /// evidence of its own: parts wear together. Its value is below 0 where the references say that less passes than forces
-/// do: then it is never taken.
+/// do: then it is never taken from edges that have not widened.
 [[nodiscard]] Change edge_change(const MachineEvidence& evidence, const WearView& from);
+
+/// Friction in operation, as the logarithm of its ratio to that of `from`: where innovations and the scatter of the
+/// references' volumes are least, with the edges as wide as the oil then asks for. `edges` is edge_change() of `from`:
+/// both together need the evidence of a change; of a valve that shows other wear friction needs none.
+[[nodiscard]] Change friction_change(const MachineEvidence& evidence, const WearView& from, const Change& edges);
 
 }  // namespace spoolflow::calibration

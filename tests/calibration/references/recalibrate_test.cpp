@@ -113,6 +113,21 @@ TEST(Recalibrate, FindsTheWearOfEdgesFrictionAndPositionZeroAndLogsIt) {
   EXPECT_EQ(log.reasons, found.findings);
 }
 
+TEST(Recalibrate, EdgesThatWereTakenForALittleTooWideGoBackButNotBelowTheCalibratedOnes) {
+  const model::WearState wide{0.03, 1, 0, 0.01, 0.05};
+  model::Model before = moved(worn_valve(), wide);
+  before.provenance.adaptations.push_back({"1", "t", std::string(64, 'a'), {}, {}, {}, {wide}});
+  const RecalibratedValve found = recalibrate(before, fresh_strokes(), {meter()}, how());
+  EXPECT_LT(found.after.edge_width, 0.02);
+  EXPECT_GE(found.after.edge_width, 0);
+}
+
+TEST(Recalibrate, FindsFrictionBesideEdgesThatWidened) {
+  const RecalibratedValve found = recalibrate(worn_valve(), strokes_of({0.1, 1.2, 0}), {meter()}, how());
+  EXPECT_NEAR(found.after.friction_ratio, 1.2, 0.08);
+  EXPECT_NEAR(found.after.edge_width, 0.1, 0.04);
+}
+
 TEST(Recalibrate, GoesBackToAnyEarlierState) {
   model::Model once = moved(worn_valve(), {0.05, 1.2, 10e-6, 0.01, 0.05});
   once.provenance.adaptations.push_back({"1", "t", std::string(64, 'a'), {}, {}, {}, {{0.05, 1.2, 10e-6, 0.01, 0.05}}});
