@@ -42,6 +42,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 34> library_
     {"zstd.h", "zstd"},
     {"libpq-fe.h", "libpq"},
     {"nats/nats.h", "NATS"},
+    {"curl/", "libcurl"},
     {"modbus/modbus.h", "libmodbus"},
     {"MQTTClient.h", "Paho"},
     {"net/if.h", "POSIX"},
