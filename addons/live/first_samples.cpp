@@ -16,6 +16,8 @@ namespace {
 
 /// Each holds up to half a megabyte; the others wait for their turn.
 constexpr int most_together = 64;
+/// So much of what is implausible is gathered: its extremes tell its unit.
+constexpr double implausible_s = 5;
 /// So long a valve at rest keeps its turn, and so long the next one waits behind it.
 constexpr double longest_rest_s = 120;
 
@@ -136,7 +138,8 @@ void FirstSamples::take(std::size_t valve, const SampleBlock& block) {
   for (const estimation::TimedSample& sample : block.samples) gathered.take(sample);
   if (gathered.has_gap()) {
     place.gathered = parts_->begun(valve);
-  } else if (!gathered.implausible().empty() || (gathered.length_s() >= judged_s && gathered.moves())) {
+  } else if ((!gathered.implausible().empty() && gathered.length_s() >= implausible_s) ||
+             (gathered.length_s() >= judged_s && gathered.moves())) {
     place.wanted = false;
     // What is implausible is so in each sample: it is looked at now and then.
     if (!gathered.implausible().empty()) place.not_before_s = now_s + judged_s;

@@ -31,6 +31,8 @@ constexpr std::array<SampleChannel, GatheredSamples::channels> sample_channels{
      {Channel::current_a, "A", &estimation::TimedSample::current_a_A},
      {Channel::voltage_a, "V", &estimation::TimedSample::voltage_a_V}}};
 
+constexpr std::size_t position_place = 3, current_a_place = 5;  ///< in that table
+
 /// The active coil's is that of b where that of a is measured beside it.
 Channel channel_of(const SampleChannel& one, bool both_coils) {
   if (both_coils && one.channel == Channel::current) return Channel::current_b;
@@ -44,6 +46,9 @@ void GatheredSamples::take(const estimation::TimedSample& sample) {
   for (std::size_t c = 0; c < sample_channels.size(); ++c) {
     const double value = sample.*sample_channels[c].member;
     columns_[c].push_back(std::isfinite(value) ? value : estimation::not_measured);
+    if (!std::isfinite(value)) continue;
+    ranges_[c].lowest = std::min(ranges_[c].lowest, value);
+    ranges_[c].highest = std::max(ranges_[c].highest, value);
   }
   if (std::isfinite(sample.time_s)) {
     if (std::isnan(first_s_)) first_s_ = sample.time_s;
@@ -61,14 +66,27 @@ void GatheredSamples::checked(Check&& check) {
   }
 }
 
+/// What is beyond a limit is named by its extremes, which tell best what unit it is in.
 void GatheredSamples::finish() {
-  if (!bound_.empty() && implausible_.empty()) checked([&] { units_->finish(); });
+  if (bound_.empty()) return;
+  if (implausible_.empty()) return checked([&] { units_->finish(); });
+  recording::Plausibility again(valve_, bound_, stroke_m_);
+  for (std::size_t k = 0; k < bound_.size(); ++k) {
+    const Range& range = ranges_[bound_[k].column];
+    if (bound_[k].channel == Channel::time || !(range.lowest <= range.highest)) continue;
+    const std::vector<double> extremes(2, std::abs(range.lowest) > range.highest ? range.lowest : range.highest);
+    const std::vector<double> least(2, range.lowest);
+    for (const auto& values : {extremes, least}) {
+      checked([&] { again.take(k, values, [&](std::size_t) { return fmt::format("in {:.0f} s", length_s()); }); });
+    }
+  }
 }
 
 bool GatheredSamples::moves() const {
   const double noise = means_.position_resolution().noise_m();
   const double least = std::isfinite(noise) ? noise : means_.position_resolution().step_m();
-  return highest_ - lowest_ > least_motion * least && highest_ > lowest_;
+  const auto& [lowest, highest] = ranges_[position_place];
+  return highest - lowest > least_motion * least && highest > lowest;
 }
 
 std::vector<std::string> GatheredSamples::findings(const std::vector<plausibility::KnownValve>& known) const {
@@ -80,7 +98,7 @@ std::vector<std::string> GatheredSamples::findings(const std::vector<plausibilit
 }
 
 void GatheredSamples::bind() {
-  const bool both_coils = is_there(5);
+  const bool both_coils = is_there(current_a_place);
   for (std::size_t c = 0; c < sample_channels.size(); ++c) {
     if (!is_there(c)) continue;
     const SampleChannel& one = sample_channels[c];
@@ -106,11 +124,6 @@ void GatheredSamples::hand_over() {
   }
   for (const recording::BoundColumn& one : bound_) {
     block.columns[static_cast<std::size_t>(one.channel)] = std::move(columns_[one.column]);
-  }
-  for (const double position_m : block.column(Channel::position)) {
-    if (!std::isfinite(position_m)) continue;
-    lowest_ = std::min(lowest_, position_m);
-    highest_ = std::max(highest_, position_m);
   }
   samples_ += rows_together;
   if (block.column(Channel::time).size() == block.column(Channel::position).size()) means_.take(block);

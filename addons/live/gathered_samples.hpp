@@ -37,6 +37,9 @@ class GatheredSamples {
   [[nodiscard]] std::vector<std::string> findings(const std::vector<plausibility::KnownValve>& known) const;
 
  private:
+  struct Range {
+    double lowest = std::numeric_limits<double>::infinity(), highest = -std::numeric_limits<double>::infinity();
+  };
   template <class Check>
   void checked(Check&& check);
   void bind();
@@ -52,7 +55,7 @@ class GatheredSamples {
   std::string implausible_{};
   std::uint64_t samples_ = 0;
   double first_s_ = estimation::not_measured, last_s_ = 0;
-  double lowest_ = std::numeric_limits<double>::infinity(), highest_ = -lowest_;
+  std::array<Range, channels> ranges_{};
 };
 
 }  // namespace spoolflow::live

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 const std::set<std::string> freestanding_headers{"array",  "bit",     "cmath", "concepts",    "cstddef", "cstdint",
                                                  "limits", "numbers", "span",  "type_traits", "utility"};
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 34> library_prefixes{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 35> library_prefixes{{
     {"experimental/", "std"},  // std::experimental::simd
     {"fmt/", "fmt"},
     {"nlohmann/", "nlohmann-json"},
