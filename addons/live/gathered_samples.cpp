@@ -58,26 +58,32 @@ void GatheredSamples::take(const estimation::TimedSample& sample) {
 }
 
 template <class Check>
-void GatheredSamples::checked(Check&& check) {
+bool GatheredSamples::checked(Check&& check) {
   try {
     check();
+    return true;
   } catch (const recording::RecordingError& error) {
     implausible_ = error.what();
+    return false;
   }
 }
 
 /// What is beyond a limit is named by its extremes, which tell best what unit it is in.
 void GatheredSamples::finish() {
   if (bound_.empty()) return;
-  if (implausible_.empty()) return checked([&] { units_->finish(); });
+  if (implausible_.empty()) {
+    (void)checked([&] { units_->finish(); });
+    return;
+  }
   recording::Plausibility again(valve_, bound_, stroke_m_);
   for (std::size_t k = 0; k < bound_.size(); ++k) {
-    const Range& range = ranges_[bound_[k].column];
-    if (bound_[k].channel == Channel::time || !(range.lowest <= range.highest)) continue;
-    const std::vector<double> extremes(2, std::abs(range.lowest) > range.highest ? range.lowest : range.highest);
-    const std::vector<double> least(2, range.lowest);
-    for (const auto& values : {extremes, least}) {
-      checked([&] { again.take(k, values, [&](std::size_t) { return fmt::format("in {:.0f} s", length_s()); }); });
+    const auto& [lowest, highest] = ranges_[bound_[k].column];
+    if (bound_[k].channel == Channel::time || !(lowest <= highest)) continue;
+    const bool falls = std::abs(lowest) > std::abs(highest);
+    for (const double extreme : {falls ? lowest : highest, falls ? highest : lowest}) {
+      const std::vector<double> values(2, extreme);
+      const auto when = [&](std::size_t) { return fmt::format("in {:.0f} s", length_s()); };
+      if (!checked([&] { again.take(k, values, when); })) return;
     }
   }
 }
@@ -118,7 +124,7 @@ void GatheredSamples::hand_over() {
   block.rows = rows_together;
   for (std::size_t k = 0; k < bound_.size() && implausible_.empty(); ++k) {
     const std::vector<double>& column = columns_[bound_[k].column];
-    checked([&] {
+    (void)checked([&] {
       units_->take(k, column, [&](std::size_t row) { return fmt::format("sample {}", samples_ + row + 1); });
     });
   }

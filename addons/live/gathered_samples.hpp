@@ -40,8 +40,9 @@ class GatheredSamples {
   struct Range {
     double lowest = std::numeric_limits<double>::infinity(), highest = -std::numeric_limits<double>::infinity();
   };
+  /// Whether it says nothing.
   template <class Check>
-  void checked(Check&& check);
+  bool checked(Check&& check);
   void bind();
   [[nodiscard]] bool is_there(std::size_t channel) const;
   void hand_over();

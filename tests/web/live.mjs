@@ -211,10 +211,10 @@ test('alarms are raised, acknowledged by a button, and stay acknowledged over a 
   const quietAlarm = page.locator('.alarm:has-text("no samples"):has-text("feed_udp")').first();
   const open = Number(await page.locator('#alarm-count').textContent());
   await quietAlarm.locator('.desk summary').click();
-  await quietAlarm.getByLabel('Comment').fill('the sender is on its way');
-  await quietAlarm.getByRole('button', { name: 'Comment' }).click();
+  await quietAlarm.getByRole('textbox', { name: 'Comment' }).fill('the sender is on its way');
+  await quietAlarm.getByRole('button', { name: 'Comment', exact: true }).click();
   await page.waitForSelector('.alarm:has-text("feed_udp") .comments li:has-text("local the sender is on its way")');
-  await quietAlarm.getByLabel('For').selectOption('168');
+  await quietAlarm.getByRole('combobox').selectOption('168');
   await quietAlarm.getByRole('button', { name: 'Shelve' }).click();
   await page.waitForSelector('h3:has-text("Shelved") + .alarms .alarm[data-state=shelved]:has-text("shelved by local until")');
   await page.waitForFunction((was) => Number(document.querySelector('#alarm-count').textContent || '0') === was - 1, open);
@@ -282,7 +282,7 @@ test('plots show the time that is asked for, with another valve over it, and the
   });
   const local = (time) => new Date(time - new Date().getTimezoneOffset() * 60000).toISOString().slice(0, 19);
   const to = 1000 * Math.floor(Date.now() / 1000), from = to - 3000_000;
-  await page.getByLabel('From').fill(local(from));
+  await page.getByLabel('From', { exact: true }).fill(local(from));
   await page.getByLabel('to', { exact: true }).fill(local(to));
   await page.getByLabel('Beside it').selectOption('press_2');
   await page.waitForSelector('figure.history[aria-label^="mean flow"][aria-label$=", with press_2"]', { timeout: 20000 });
@@ -304,7 +304,7 @@ test('plots show the time that is asked for, with another valve over it, and the
   await page.reload();
   await page.waitForSelector('figure.history[aria-label^="mean flow"][aria-label$=", with press_2"]', { timeout: 20000 });
   assert.ok(asked.some((one) => one[0] === 'press_2' && one[1] === from / 1000 && one[2] === to / 1000), JSON.stringify(asked));
-  assert.equal(await page.getByLabel('From').inputValue().then((text) => text.slice(0, 16)), local(from).slice(0, 16));
+  assert.equal(await page.getByLabel('From', { exact: true }).inputValue().then((text) => text.slice(0, 16)), local(from).slice(0, 16));
   // An end before the begin is refused where it is written.
   await page.getByLabel('to', { exact: true }).fill(local(from - 1000));
   await page.waitForSelector('.tools .stale:has-text("must lie before")');

@@ -4,7 +4,7 @@ import { element, setText } from './element';
 import { HistoryPlot, withGaps, type Curve } from './history_plot';
 import { RangeControl, type Asked } from './range_control';
 
-const refresh_ms = 30000;
+const refresh_ms = 30000, again_ms = 3000;
 /** As the program thins them (addons/live/history/long_history.hpp). */
 const mostPoints = 600;
 
@@ -63,8 +63,9 @@ interface Read {
   indicators: IndicatorHistory[];
 }
 async function readBoth(id: string, { from, to }: Asked): Promise<Read> {
-  const [flow, indicators] = await Promise.all([readFlow(id, from, to), readIndicators(id, from, to)]);
-  return { flow, indicators };
+  // One after the other: the program has few seats for those who read much.
+  const flow = await readFlow(id, from, to);
+  return { flow, indicators: await readIndicators(id, from, to) };
 }
 
 export class HistoryView {
@@ -76,6 +77,7 @@ export class HistoryView {
   private readonly range: RangeControl;
   private last = -Infinity;
   private waiting = 0;  // for answers
+  private answered = false;
   private closed = false;
   /** As they are now, with their limits. */
   private indicators: readonly Indicator[] = [];
@@ -90,8 +92,8 @@ export class HistoryView {
   follow(indicators: readonly Indicator[] = [], others: readonly string[] = []): void {
     this.indicators = indicators;
     this.range.offer(others);
-    const stands = this.last > 0 && this.range.asked()?.moves === false;
-    if (!stands && this.waiting === 0 && performance.now() - this.last > refresh_ms) void this.ask();
+    const stands = this.answered && this.range.asked()?.moves === false;
+    if (!stands && this.waiting === 0 && performance.now() - this.last > (this.answered ? refresh_ms : again_ms)) void this.ask();
   }
   resize(): void {
     for (const plot of this.plots.values()) plot.resize();
@@ -109,9 +111,11 @@ export class HistoryView {
     if (asked === null) return;
     this.last = performance.now();
     this.waiting += 1;
+    this.answered = false;
     const mine = this.last;
     try {
-      const [read, beside] = await Promise.all([readBoth(this.id, asked), asked.beside === null ? null : readBoth(asked.beside, asked)]);
+      const read = await readBoth(this.id, asked);
+      const beside = asked.beside === null ? null : await readBoth(asked.beside, asked);
       if (this.closed || mine !== this.last) return;
       const oldest = Math.min(...read.flow.time_ms, ...read.indicators.flatMap((one) => one.time_ms));
       if (!this.range.chosen && asked.to - asked.from > 3600 && Date.now() - oldest < 7.2e6) {  // a store that has just begun
@@ -121,6 +125,7 @@ export class HistoryView {
         return;
       }
       this.range.chosen = true;
+      this.answered = true;
       this.show(asked, read, beside);
     } catch (error) {
       setText(this.said, error instanceof Refusal ? error.message : 'The program does not answer.');

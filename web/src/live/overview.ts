@@ -174,7 +174,8 @@ export class Overview {
     const fits = (valve: Valve): boolean => asked === '' || valve.id.toLowerCase().includes(asked) ||
       signs[valve.ne107].includes(asked) || valve.causes.some((one) => words(one.cause).includes(asked));
     const shown = this.data.valves.filter(fits);
-    if (this.worstFirst.checked) shown.sort((a, b) => severity[b.ne107] - severity[a.ne107]);
+    const rank = (valve: Valve): number => 2 * severity[valve.ne107] + Math.min(1, valve.findings.length);
+    if (this.worstFirst.checked) shown.sort((a, b) => rank(b) - rank(a));
     setText(this.count, `${shown.length} of ${this.data.valves.length} valves`);
     const links = shown.map((valve) => this.cards.get(valve.id)!.link);
     if (links.length === this.grid.children.length && links.every((link, k) => this.grid.children[k] === link)) return;
