@@ -88,13 +88,37 @@ ValveView Engine::view(std::size_t k) const {
   return out;
 }
 
+/// What somebody did with it.
+void Engine::report_alarm(const std::optional<Alarm>& alarm, const std::string& what) {
+  if (!alarm) return;
+  journal_.events.add({.wall_ms = wall_ms(),
+                       .valve = alarm->valve,
+                       .kind = "alarm",
+                       .text = fmt::format("alarm {} {}: {}", alarm->id, what, alarm->cause)});
+}
+
 std::optional<Alarm> Engine::acknowledge(std::int64_t alarm, const std::string& by) {
   std::optional<Alarm> found = journal_.alarms.acknowledge(alarm, by, wall_ms());
-  if (!found) return found;
-  journal_.events.add({.wall_ms = wall_ms(),
-                       .valve = found->valve,
-                       .kind = "alarm",
-                       .text = fmt::format("alarm {} acknowledged by {}: {}", found->id, by, found->cause)});
+  report_alarm(found, "acknowledged by " + by);
+  return found;
+}
+
+std::optional<Alarm> Engine::shelve(std::int64_t alarm, const std::string& by, double hours) {
+  const std::int64_t now_ms = wall_ms(), until_ms = now_ms + static_cast<std::int64_t>(3.6e6 * hours);
+  std::optional<Alarm> found = journal_.alarms.shelve(alarm, by, until_ms, now_ms);
+  if (found && found->shelved_until_ms != 0) report_alarm(found, fmt::format("shelved for {:.3g} h by {}", hours, by));
+  return found;
+}
+
+std::optional<Alarm> Engine::unshelve(std::int64_t alarm, const std::string& by) {
+  std::optional<Alarm> found = journal_.alarms.unshelve(alarm);
+  report_alarm(found, "taken off the shelf by " + by);
+  return found;
+}
+
+std::optional<Alarm> Engine::comment(std::int64_t alarm, const std::string& by, const std::string& text) {
+  std::optional<Alarm> found = journal_.alarms.comment(alarm, {.at_ms = wall_ms(), .by = by, .text = text});
+  report_alarm(found, fmt::format("commented by {} (\"{}\")", by, text));
   return found;
 }
 

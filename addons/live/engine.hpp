@@ -45,12 +45,17 @@ class Engine {
   [[nodiscard]] ValveView view(std::size_t k) const;
   [[nodiscard]] SourceView source(std::size_t k) const { return sources_.view(k); }
   [[nodiscard]] UdpCounters udp_counters() const { return sources_.udp_counters(); }
+  [[nodiscard]] std::vector<UnknownSender> unknown_senders() const { return sources_.unknown_senders(); }
   [[nodiscard]] std::uint16_t udp_port() const { return sources_.udp_port(); }
   [[nodiscard]] StoreView store_view() const { return keeper_ ? keeper_->view() : StoreView{}; }
   [[nodiscard]] std::vector<Event> events() const { return journal_.events.all(); }
   [[nodiscard]] std::vector<Alarm> alarms() const { return journal_.alarms.all(); }
   /// The alarm as it is then; nothing where there is none of this number. It is kept with the next second's commit.
   std::optional<Alarm> acknowledge(std::int64_t alarm, const std::string& by);
+  /// Likewise: it is shelved for so long; one that is gone and acknowledged stays as it was.
+  std::optional<Alarm> shelve(std::int64_t alarm, const std::string& by, double hours);
+  std::optional<Alarm> unshelve(std::int64_t alarm, const std::string& by);
+  std::optional<Alarm> comment(std::int64_t alarm, const std::string& by, const std::string& text);
   /// Something of the program itself that people should know: an event, and reported as report_by() sets.
   void note(const std::string& text) { journal_.note(text); }
   /// The fleet has the valve's blocks up to that number: they need not be kept any longer.
@@ -62,6 +67,7 @@ class Engine {
  private:
   void beat(const std::stop_token& stop);
   void follow_clock();
+  void report_alarm(const std::optional<Alarm>& alarm, const std::string& what);
 
   SiteSettings site_;
   Outputs outputs_;

@@ -204,6 +204,19 @@ void read_parts(const TomlTable& top, SiteSettings& site) {
   }
 }
 
+std::vector<NotifySettings> read_notified(const TomlTable& top) {
+  std::vector<NotifySettings> out;
+  const toml::node* const node = top.table.get("notify");
+  if (node == nullptr) return out;
+  if (!node->is_array_of_tables()) {
+    throw SiteError(
+        fmt::format("{}: who gets messages of alarms are tables [[notify]] with webhook, or mail, from and to",
+                    top.place("notify")));
+  }
+  for (const toml::node& one : *node->as_array()) out.push_back(read_notify({*one.as_table(), top.file, "[[notify]]"}));
+  return out;
+}
+
 /// What must hold between the parts.
 void check(const SiteSettings& site, const std::filesystem::path& file) {
   std::vector<std::string> ids;
@@ -240,9 +253,11 @@ std::string_view kind(const SourceSettings& source) {
 SiteSettings read_site(const std::filesystem::path& file) {
   const toml::table document = recording::read_toml(file);
   const TomlTable top{document, file, "the file"};
-  top.allow_only({"page", "store", "sources", "alarms", "plotjuggler", "can", "modbus", "mqtt", "fleet", "valve"});
+  top.allow_only(
+      {"page", "store", "sources", "alarms", "plotjuggler", "can", "modbus", "mqtt", "fleet", "notify", "valve"});
   SiteSettings site;
   read_parts(top, site);
+  site.notify = read_notified(top);
   const toml::array* const valves = document["valve"].as_array();
   if (valves == nullptr || valves->empty()) {
     throw SiteError(

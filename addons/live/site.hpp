@@ -8,6 +8,7 @@
 
 #include "addons/live/fieldbus_settings.hpp"
 #include "addons/live/history/store.hpp"
+#include "addons/live/notify_settings.hpp"
 #include "addons/live/page_settings.hpp"
 #include "addons/live/publish_settings.hpp"
 #include "addons/live/sources/replay_source.hpp"
@@ -49,6 +50,7 @@ struct SiteSettings {
   /// Raw samples around an alarm that are kept as a recording, where there is a store.
   double raw_before_s = 20, raw_after_s = 10;
   AlarmDelays alarms{};
+  std::vector<NotifySettings> notify{};  ///< who gets messages of alarms
   std::optional<Address> plotjuggler{};  ///< where plots go as JSON over UDP; nothing: nowhere
   std::optional<CanSettings> can{};      ///< what goes to fieldbus and plant; nothing: off
   std::optional<ModbusSettings> modbus{};

@@ -12,11 +12,14 @@ namespace spoolflow::live {
 
 /// A thread that works on the samples of some of the valves.
 struct ValveSources::Worker {
-  std::mutex mutex;
-  std::condition_variable_any arrived;
-  std::vector<Place*> pending;
-  std::vector<SampleBlock> blocks;  ///< of the valve that is worked on now
-  std::jthread thread;              ///< last: it uses the others
+  explicit Worker(FirstSamples& first) : first_samples(first) {}
+
+  FirstSamples& first_samples;
+  std::mutex mutex{};
+  std::condition_variable_any arrived{};
+  std::vector<Place*> pending{};
+  std::vector<SampleBlock> blocks{};  ///< of the valve that is worked on now
+  std::jthread thread{};              ///< last: it uses the others
 
   void add(Place& place) {
     {
@@ -28,7 +31,10 @@ struct ValveSources::Worker {
   /// All that waits for the valve; whatever has not come yet is not waited for.
   void work(Place& place) {
     place.intake->take(blocks);
-    for (const SampleBlock& block : blocks) place.valve->work(block);
+    for (const SampleBlock& block : blocks) {
+      place.valve->work(block);
+      first_samples.take(place.number, block);
+    }
   }
   void run(const std::stop_token& stop) {
     std::vector<Place*> now;
@@ -44,12 +50,13 @@ struct ValveSources::Worker {
   }
 };
 
-ValveSources::ValveSources(const SiteSettings& site, const Valves& valves) : site_(site) {
+ValveSources::ValveSources(const SiteSettings& site, const Valves& valves) : site_(site), first_samples_(site) {
   const std::size_t threads = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, valves.size());
-  for (std::size_t k = 0; k < threads; ++k) workers_.push_back(std::make_unique<Worker>());
+  for (std::size_t k = 0; k < threads; ++k) workers_.push_back(std::make_unique<Worker>(first_samples_));
   for (std::size_t k = 0; k < valves.size(); ++k) {
     auto place = std::make_unique<Place>();
     place->valve = valves[k].get();
+    place->number = k;
     Worker& worker = *workers_[k % threads];
     place->intake = std::make_unique<Intake>([&worker, at = place.get()] { worker.add(*at); });
     places_.push_back(std::move(place));
@@ -135,6 +142,7 @@ SourceView ValveSources::view(std::size_t k) const {
   if (const auto* tcp = std::get_if<std::unique_ptr<TcpSource>>(&place.source)) out.port = (*tcp)->port();
   out.counters = place.before + place.intake->counters();
   out.trouble = place.intake->trouble();
+  out.findings = first_samples_.findings(k);
   const std::int64_t arrived_ns = place.valve->arrived_ns();
   out.age_s =
       arrived_ns == 0 ? std::numeric_limits<double>::quiet_NaN() : 1e-9 * static_cast<double>(steady_ns() - arrived_ns);

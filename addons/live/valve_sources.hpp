@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "addons/live/first_samples.hpp"
 #include "addons/live/site.hpp"
 #include "addons/live/sources/csv_source.hpp"
 #include "addons/live/sources/intake.hpp"
@@ -24,6 +25,7 @@ struct SourceView {
   std::string trouble;      ///< empty: none
   bool stalled = false;     ///< no sample for longer than the site allows; a recording that has ended is not stalled
   double age_s = 0;         ///< since the last sample; NaN: none yet
+  std::vector<std::string> findings{};  ///< what speaks against the sender's first samples (first_samples.hpp)
 };
 
 class ValveSources {
@@ -47,12 +49,16 @@ class ValveSources {
   /// Its senders number their samples by sessions, whose count belongs to the sample that was worked on last.
   [[nodiscard]] bool has_sessions(std::size_t k) const;
   [[nodiscard]] UdpCounters udp_counters() const { return udp_ ? udp_->counters() : UdpCounters{}; }
+  [[nodiscard]] std::vector<UnknownSender> unknown_senders() const {
+    return udp_ ? udp_->unknown_senders() : std::vector<UnknownSender>{};
+  }
   [[nodiscard]] std::uint16_t udp_port() const { return udp_ ? udp_->port() : std::uint16_t{0}; }
 
  private:
   struct Worker;
   struct Place {
     ValveAtWork* valve;
+    std::size_t number = 0;
     std::unique_ptr<Intake> intake;
     SourcePosition after{};
     IntakeCounters before{};  ///< what the store has of its counts at the start
@@ -65,6 +71,7 @@ class ValveSources {
   [[nodiscard]] static bool ended(const Place& place);
 
   const SiteSettings& site_;
+  FirstSamples first_samples_;
   std::vector<std::unique_ptr<Place>> places_;
   std::vector<std::unique_ptr<Worker>> workers_;
   std::unique_ptr<UdpReceiver> udp_;

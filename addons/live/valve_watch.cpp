@@ -45,13 +45,18 @@ void ValveWatch::look_at_source(const ValveView& valve, const SourceView& source
     add(source.trouble);
   }
   before.trouble = source.trouble;
+  if (before.findings.empty()) {  // their figures change from time to time
+    for (const std::string& one : source.findings) add("the sender's samples: " + one);
+  }
+  before.findings = source.findings;
 }
 
 void ValveWatch::follow_alarms(const ValveView& valve, bool stalled, Reported& before) {
   for (const AlarmChange& change : journal_.alarms.follow(valve, troubles_of(valve, stalled), wall_ms())) {
     journal_.events.add(alarm_event(valve, change, wall_ms()));
     // Where nothing comes there is nothing to look at.
-    if (change.kind == AlarmChange::Kind::gone || change.alarm.cause == no_samples) continue;
+    const bool rises = change.kind == AlarmChange::Kind::raised || change.kind == AlarmChange::Kind::worse;
+    if (!rises || change.alarm.cause == no_samples) continue;
     before.recording.raised(change.alarm, valve);
   }
 }

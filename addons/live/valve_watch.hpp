@@ -26,6 +26,7 @@ class ValveWatch {
     bool stalled = false;
     monitor::Ne107 condition = monitor::Ne107::good;
     std::string trouble{};
+    std::vector<std::string> findings{};
     AlarmRecording recording{};
   };
   void look_at_source(const ValveView& valve, const SourceView& source, Reported& before);

@@ -91,7 +91,7 @@ void Monitor::take(const estimation::TimedSample& sample, const sensor::Estimate
     const double pace = first ? 1.0 : std::min(time_step_s / oil_smoothing_s, 1.0);
     state_.oil_temperature_K += pace * (sample.oil_temperature_K - state_.oil_temperature_K);
   }
-  if (usable) {
+  if (usable && !has(answer.status, uncounted)) {
     const sensor::ObserverParameters<double>& valve = *reference_[0].valve;
     const bool driven = !(std::abs(sample.current_A) < silent_current_share * valve.largest_current_A) ||
                         std::abs(sample.current_a_A) > silent_current_share * valve.largest_current_A;

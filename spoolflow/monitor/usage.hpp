@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "spoolflow/sensor/basis/status.hpp"
+
 namespace spoolflow::monitor {
 
 /// Motion within this share of the stroke is dither motion, no reversal; it is also the least stroke that counts.
@@ -14,6 +16,11 @@ inline constexpr double distance_play_m = 5e-6;
 /// The load histogram has so many equal classes of flow over rated flow, and as many of pressure difference over the
 /// calibrated range; the last holds all beyond.
 inline constexpr std::size_t load_classes = 5;
+
+/// While one of these stands, the answer is held or is none of what the valve does: no counter goes on.
+inline constexpr sensor::Status uncounted = sensor::Status::position_fault | sensor::Status::sample_missing |
+                                            sensor::Status::other_direction | sensor::Status::time_fault |
+                                            sensor::Status::coil_fault | sensor::Status::current_fault;
 
 struct Usage {
   std::uint64_t samples = 0;

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 const std::set<std::string> freestanding_headers{"array",  "bit",     "cmath", "concepts",    "cstddef", "cstdint",
                                                  "limits", "numbers", "span",  "type_traits", "utility"};
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 34> library_prefixes{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 35> library_prefixes{{
     {"experimental/", "std"},  // std::experimental::simd
     {"fmt/", "fmt"},
     {"nlohmann/", "nlohmann-json"},
@@ -42,6 +42,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 34> library_
     {"zstd.h", "zstd"},
     {"libpq-fe.h", "libpq"},
     {"nats/nats.h", "NATS"},
+    {"curl/", "libcurl"},
     {"modbus/modbus.h", "libmodbus"},
     {"MQTTClient.h", "Paho"},
     {"net/if.h", "POSIX"},

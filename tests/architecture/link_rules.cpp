@@ -31,6 +31,7 @@ const std::map<std::string, std::string> library_of_target{
     {"PkgConfig::ZSTD", "zstd"},
     {"PkgConfig::LIBPQ", "libpq"},
     {"PkgConfig::NATS", "NATS"},
+    {"CURL::libcurl", "libcurl"},
     {"PkgConfig::modbus", "libmodbus"},
     {"Paho::MQTT", "Paho"},
     {"pybind11::headers", "pybind11"},

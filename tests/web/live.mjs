@@ -207,9 +207,27 @@ test('alarms are raised, acknowledged by a button, and stay acknowledged over a 
   assert.match(readFileSync(csv, 'utf8'), /^time_s,current_A,voltage_V,position_mm,oil_temperature_C\n/);
   assert.equal(spawnSync(command, ['estimate', '-q', 'model.json', csv, '-o', '-'], { cwd: folder, encoding: 'utf8' }).status, 0);
 
+  // Another one is commented, and shelved for a week: it counts nowhere, and is listed apart.
+  const quietAlarm = page.locator('.alarm:has-text("no samples"):has-text("feed_udp")').first();
+  const open = Number(await page.locator('#alarm-count').textContent());
+  await quietAlarm.locator('.desk summary').click();
+  await quietAlarm.getByRole('textbox', { name: 'Comment' }).fill('the sender is on its way');
+  await quietAlarm.getByRole('button', { name: 'Comment', exact: true }).click();
+  await page.waitForSelector('.alarm:has-text("feed_udp") .comments li:has-text("local the sender is on its way")');
+  await quietAlarm.getByRole('combobox').selectOption('168');
+  await quietAlarm.getByRole('button', { name: 'Shelve' }).click();
+  await page.waitForSelector('h3:has-text("Shelved") + .alarms .alarm[data-state=shelved]:has-text("shelved by local until")');
+  await page.waitForFunction((was) => Number(document.querySelector('#alarm-count').textContent || '0') === was - 1, open);
+  await picture(page, 'alarms_shelved');
+
   await ended(served.child);
   served = await start('site.toml', '--listen', `127.0.0.1:${served.port}`);
   await page.waitForSelector('.alarm[data-state=raised_acknowledged]:has-text("function check")', { timeout: 20000 });
+  const kept = page.locator('.alarm[data-state=shelved]:has-text("the sender is on its way")');
+  await kept.waitFor();
+  if (!(await kept.locator('.desk').getAttribute('open') !== null)) await kept.locator('.desk summary').click();
+  await kept.getByRole('button', { name: 'Take off the shelf' }).click();
+  await page.waitForSelector('h2:has-text("Alarms") + .alarms .alarm[data-state=raised_unacknowledged]:has-text("the sender is on its way")');
   assert.deepEqual(complaints, []);
 });
 
@@ -252,6 +270,77 @@ test('a valve’s plot moves 20 to 50 times a second, goes stale with the progra
   await page.waitForSelector('#stale', { state: 'hidden', timeout: 20000 });
   await page.waitForSelector('canvas.plot:not(.old)', { timeout: 20000 });
   await moves(page);
+});
+
+test('plots show the time that is asked for, with another valve over it, and the address keeps both', async () => {
+  const { page, complaints } = await opened('#/valve/press_1');
+  await page.waitForFunction(() => document.querySelectorAll('figure.history').length >= 2, undefined, { timeout: 60000 });
+  const asked = [];
+  page.on('request', (request) => {
+    const found = /valves\/(\w+)\/history\?from=(\d+)&to=(\d+)/.exec(request.url());
+    if (found) asked.push([found[1], Number(found[2]), Number(found[3])]);
+  });
+  const local = (time) => new Date(time - new Date().getTimezoneOffset() * 60000).toISOString().slice(0, 19);
+  const to = 1000 * Math.floor(Date.now() / 1000), from = to - 3000_000;
+  await page.getByLabel('From', { exact: true }).fill(local(from));
+  await page.getByLabel('to', { exact: true }).fill(local(to));
+  await page.getByLabel('Beside it').selectOption('press_2');
+  await page.waitForSelector('figure.history[aria-label^="mean flow"][aria-label$=", with press_2"]', { timeout: 20000 });
+  for (const id of ['press_1', 'press_2']) {
+    assert.ok(asked.some((one) => one[0] === id && one[1] === from / 1000 && one[2] === to / 1000), JSON.stringify(asked));
+  }
+  assert.match(await page.evaluate(() => location.hash), /^#\/valve\/press_1\?from=[^&]+&to=[^&]+&with=press_2$/);
+  assert.deepEqual(await page.locator('.legend span').allTextContents(), ['press_1', 'press_2']);
+  // The second curve is drawn in its own colour.
+  const orange = () => page.locator('figure.history canvas').first().evaluate((canvas) => {
+    const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+    let count = 0;
+    for (let k = 0; k < data.length; k += 4) count += data[k] > 180 && data[k + 1] < 120 && data[k + 2] < 60 && data[k + 3] > 200 ? 1 : 0;
+    return count;
+  });
+  assert.ok(await orange() > 5);
+  await picture(page, 'valve_beside');
+  asked.length = 0;
+  await page.reload();
+  await page.waitForSelector('figure.history[aria-label^="mean flow"][aria-label$=", with press_2"]', { timeout: 20000 });
+  assert.ok(asked.some((one) => one[0] === 'press_2' && one[1] === from / 1000 && one[2] === to / 1000), JSON.stringify(asked));
+  assert.equal(await page.getByLabel('From', { exact: true }).inputValue().then((text) => text.slice(0, 16)), local(from).slice(0, 16));
+  // An end before the begin is refused where it is written.
+  await page.getByLabel('to', { exact: true }).fill(local(from - 1000));
+  await page.waitForSelector('.tools .stale:has-text("must lie before")');
+  await page.getByLabel('Beside it').selectOption('none');
+  await page.getByLabel('Span').selectOption('604800');
+  await page.waitForFunction(() => location.hash === '#/valve/press_1?span=604800');
+  assert.deepEqual(complaints, []);
+});
+
+test('a sender in wrong units, and one that no valve expects, are seen on the page', async () => {
+  const lines = recording(6, 6).split('\n').map((line, k) => {
+    const cells = line.split(',');
+    if (k > 0 && cells.length > 3) cells[3] = String(1000 * Number(cells[3]));
+    return cells.join(',');
+  });
+  writeFileSync(join(folder, 'micrometres.csv'), lines.join('\n'));
+  writeFileSync(join(folder, 'commissioning.toml'), '[page]\nlisten = "127.0.0.1:0"\n[sources]\nudp = "127.0.0.1:0"\n' +
+    ['press_1', 'press_2'].map((id) => `[[valve]]\nid = "${id}"\nmodel = "model.json"\nsource = { kind = "udp" }\n`).join(''));
+  const own = await start('commissioning.toml');
+  const senders = [['press_1', 'micrometres.csv'], ['press_2', 'short.csv'], ['press_3', 'short.csv']].map(([id, file]) => send(id, file, own.udp));
+  const { page, complaints } = await opened('#/', { url: own.url, width: 390, height: 844 });
+  const card = page.locator('.card:has-text("press_1"):has-text("its samples:")');
+  await card.waitFor({ timeout: 20000 });
+  assert.match(await card.locator('.worst').textContent(), /channel position is .* is its unit mm/);
+  assert.equal(await page.locator('.card:has-text("press_2"):has-text("its samples:")').count(), 0);
+  await picture(page, 'commissioning_390');
+  await page.goto(`${own.url}/#/valve/press_1`);
+  await page.waitForSelector('.findings li:has-text("is its unit mm")');
+  await page.goto(`${own.url}/#/site`);
+  await page.waitForSelector('.unknown tr:has-text("press_3"):has-text("127.0.0.1")');
+  await picture(page, 'site_unknown_390');
+  const [content, window] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+  assert.ok(content <= window, `${content} px of content`);
+  assert.deepEqual(complaints, []);
+  for (const sender of senders) await exited(sender);
+  await ended(own.child);
 });
 
 test('narrow and dark, nothing goes beyond the page', async () => {

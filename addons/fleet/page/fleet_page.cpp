@@ -62,7 +62,10 @@ live::PageContent FleetPage::content() {
   return {.name = "spoolflow fleet",
           .answer = [this](std::string_view method, std::string_view target) { return answer(method, target); },
           .is_file = is_page_file,
-          .acknowledge = [this](std::string_view alarm, const std::string& by) { return acknowledge(alarm, by); },
+          .act =
+              [this](const live::AlarmOrder& order, const std::string& by) {
+                return order.action == "acknowledge" ? acknowledge(order.alarm, by) : std::nullopt;
+              },
           .stream = {},
           .is_long = is_long,
           .long_answer = [this](std::string_view method, std::string_view target,

@@ -13,8 +13,48 @@ CREATE TABLE IF NOT EXISTS alarm(
 CREATE TABLE IF NOT EXISTS alarm_indicator(
   alarm INTEGER NOT NULL, place INTEGER NOT NULL, name TEXT NOT NULL, value REAL, uncertainty_95 REAL, baseline REAL,
   state TEXT NOT NULL, unit TEXT NOT NULL, PRIMARY KEY(alarm, place)) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS alarm_shelf(
+  alarm INTEGER PRIMARY KEY, shelved_ms INTEGER NOT NULL, until_ms INTEGER NOT NULL, by_whom TEXT NOT NULL);
+CREATE TABLE IF NOT EXISTS alarm_comment(
+  alarm INTEGER NOT NULL, place INTEGER NOT NULL, wall_ms INTEGER NOT NULL, by_whom TEXT NOT NULL, text TEXT NOT NULL,
+  PRIMARY KEY(alarm, place)) WITHOUT ROWID;
 )");
 }
+
+namespace {
+
+void keep_shelf_and_comments(Database& database, const Alarm& one) {
+  if (one.shelved_until_ms == 0) {
+    Statement(database, "DELETE FROM alarm_shelf WHERE alarm = ?").put(one.id).run();
+  } else {
+    Statement shelf(database, "INSERT OR REPLACE INTO alarm_shelf VALUES(?,?,?,?)");
+    shelf.put(one.id).put(one.shelved_ms).put(one.shelved_until_ms).put(std::string_view(one.shelved_by)).run();
+  }
+  if (one.comments.empty()) return;
+  Statement comment(database, "INSERT OR REPLACE INTO alarm_comment VALUES(?,?,?,?,?)");
+  for (std::size_t k = 0; k < one.comments.size(); ++k) {
+    const AlarmComment& each = one.comments[k];
+    comment.put(one.id).put(static_cast<std::int64_t>(k)).put(each.at_ms);
+    comment.put(std::string_view(each.by)).put(std::string_view(each.text)).run();
+  }
+}
+
+void read_shelves_and_comments(Database& database, std::vector<Alarm>& alarms) {
+  Statement shelf(database, "SELECT shelved_ms, until_ms, by_whom FROM alarm_shelf WHERE alarm = ?");
+  Statement comment(database, "SELECT wall_ms, by_whom, text FROM alarm_comment WHERE alarm = ? ORDER BY place");
+  for (Alarm& one : alarms) {
+    shelf.put(one.id);
+    while (shelf.next()) {
+      one.shelved_ms = shelf.integer(0);
+      one.shelved_until_ms = shelf.integer(1);
+      one.shelved_by = shelf.text(2);
+    }
+    comment.put(one.id);
+    while (comment.next()) one.comments.push_back({comment.integer(0), comment.text(1), comment.text(2)});
+  }
+}
+
+}  // namespace
 
 void keep_alarms(Database& database, const std::vector<Alarm>& alarms, std::int64_t run_ms) {
   if (alarms.empty()) return;
@@ -30,6 +70,7 @@ void keep_alarms(Database& database, const std::vector<Alarm>& alarms, std::int6
       indicator.put(then.uncertainty_95).put(then.baseline).put(std::string_view(then.state));
       indicator.put(std::string_view(then.unit)).run();
     }
+    keep_shelf_and_comments(database, one);
   }
 }
 
@@ -37,8 +78,9 @@ std::vector<Alarm> kept_alarms(Database& database, int most_cleared) {
   std::vector<Alarm> out;
   Statement each(database,
                  "SELECT id, valve, cause, sign, raised_ms, gone_ms, acknowledged_ms, acknowledged_by, times, time_s, "
-                 "text, recording FROM alarm WHERE gone_ms = 0 OR acknowledged_ms = 0 OR id IN (SELECT id FROM alarm "
-                 "WHERE gone_ms <> 0 AND acknowledged_ms <> 0 ORDER BY id DESC LIMIT ?) ORDER BY id");
+                 "text, recording FROM alarm WHERE gone_ms = 0 OR acknowledged_ms = 0 OR id IN (SELECT alarm FROM "
+                 "alarm_shelf) OR id IN (SELECT id FROM alarm WHERE gone_ms <> 0 AND acknowledged_ms <> 0 ORDER BY id "
+                 "DESC LIMIT ?) ORDER BY id");
   each.put(std::int64_t{most_cleared});
   while (each.next()) {
     Alarm& one = out.emplace_back();
@@ -64,14 +106,18 @@ std::vector<Alarm> kept_alarms(Database& database, int most_cleared) {
       one.indicators.push_back({then.text(0), then.real(1), then.real(2), then.real(3), then.text(4), then.text(5)});
     }
   }
+  read_shelves_and_comments(database, out);
   return out;
 }
 
 void delete_alarms(Database& database, std::int64_t before_run_ms) {
-  const char* const which = "gone_ms <> 0 AND acknowledged_ms <> 0 AND run_ms < ?";
-  Statement(database, fmt::format("DELETE FROM alarm_indicator WHERE alarm IN (SELECT id FROM alarm WHERE {})", which))
-      .put(before_run_ms)
-      .run();
+  const char* const which =
+      "gone_ms <> 0 AND acknowledged_ms <> 0 AND run_ms < ? AND id NOT IN (SELECT alarm FROM alarm_shelf)";
+  for (const char* const table : {"alarm_indicator", "alarm_comment"}) {
+    Statement(database, fmt::format("DELETE FROM {} WHERE alarm IN (SELECT id FROM alarm WHERE {})", table, which))
+        .put(before_run_ms)
+        .run();
+  }
   Statement(database, fmt::format("DELETE FROM alarm WHERE {}", which)).put(before_run_ms).run();
 }
 

@@ -17,6 +17,11 @@ struct KeptIndicator {
   std::string unit{};
 };
 
+struct AlarmComment {
+  std::int64_t at_ms = 0;  ///< since 1970-01-01 UTC
+  std::string by{}, text{};
+};
+
 /// One cause at one valve, from when it was raised until it is gone and acknowledged.
 struct Alarm {
   std::int64_t id = 0;  ///< ascending
@@ -32,15 +37,18 @@ struct Alarm {
   std::string text{};                                        ///< what was seen then
   std::int64_t recording = 0;                                ///< of the raw samples around it; 0: none
   std::vector<KeptIndicator> indicators{};                   ///< when it was first raised
+  std::int64_t shelved_ms = 0, shelved_until_ms = 0;         ///< 0: it is not shelved
+  std::string shelved_by{};
+  std::vector<AlarmComment> comments{};  ///< the oldest first
 };
 
 /// Where there is none yet; files of programs that knew no alarms get it, too.
 void make_alarm_tables(Database& database);
 /// In the transaction of the caller, at that run time; an alarm that is there already is replaced.
 void keep_alarms(Database& database, const std::vector<Alarm>& alarms, std::int64_t run_ms);
-/// Those that are not gone and acknowledged, and of the others the newest; ascending by id.
+/// Those that are not gone and acknowledged or are shelved, and of the others the newest; ascending by id.
 [[nodiscard]] std::vector<Alarm> kept_alarms(Database& database, int most_cleared);
-/// Those that are gone and acknowledged and have not changed since that run time.
+/// Those that are gone, acknowledged and not shelved, and have not changed since that run time.
 void delete_alarms(Database& database, std::int64_t before_run_ms);
 
 }  // namespace spoolflow::live

@@ -57,12 +57,14 @@ std::string_view path_of(const PageRequest& request) {
   return target.substr(0, target.find('?'));
 }
 
-/// What stands between /api/v1/alarms/ and /acknowledge.
-std::optional<std::string_view> alarm_asked(std::string_view path) {
-  constexpr std::string_view before = "/api/v1/alarms/", behind = "/acknowledge";
-  if (!path.starts_with(before) || !path.ends_with(behind)) return std::nullopt;
-  if (path.size() <= before.size() + behind.size()) return std::nullopt;
-  return path.substr(before.size(), path.size() - before.size() - behind.size());
+std::optional<AlarmOrder> alarm_order(std::string_view path, std::string_view body) {
+  constexpr std::string_view before = "/api/v1/alarms/";
+  for (const std::string_view behind : {"/acknowledge", "/shelve", "/unshelve", "/comment"}) {
+    if (!path.starts_with(before) || !path.ends_with(behind)) continue;
+    if (path.size() <= before.size() + behind.size()) continue;
+    return AlarmOrder{path.substr(before.size(), path.size() - before.size() - behind.size()), behind.substr(1), body};
+  }
+  return std::nullopt;
 }
 
 PageAnswer text_answer(unsigned status, std::string text) {
@@ -130,19 +132,19 @@ PageAnswer HttpAccess::logout(const PageRequest& request) {
   return out;
 }
 
-PageAnswer HttpAccess::acknowledge(const PageRequest& request, const Visitor& visitor, std::string_view alarm) {
+PageAnswer HttpAccess::act(const PageRequest& request, const Visitor& visitor, const AlarmOrder& order) {
   // A browser names the page that posts. Where a cookie speaks for the sender it must be there; else it may be missing.
   if (!is_own_page(request) && (visitor.by_cookie || !request.origin.empty())) {
-    return text_answer(403, "acknowledge on the page of this server, or with a token");
+    return text_answer(403, "acknowledge, shelve and comment on the page of this server, or with a token");
   }
   if (visitor.role < Role::acknowledge) return text_answer(403, "this needs the role \"acknowledge\"");
-  if (auto answer = content_.acknowledge(alarm, visitor.name)) return std::move(*answer);
+  if (auto answer = content_.act(order, visitor.name)) return std::move(*answer);
   return only_get();
 }
 
 PageAnswer HttpAccess::posted(const PageRequest& request, const Visitor& visitor) {
-  const auto alarm = alarm_asked(path_of(request));
-  return alarm ? acknowledge(request, visitor, *alarm) : only_get();
+  const auto order = alarm_order(path_of(request), request.body);
+  return order ? act(request, visitor, *order) : only_get();
 }
 
 Admission HttpAccess::admit(const PageRequest& request, Access::Time now) {

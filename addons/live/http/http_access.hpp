@@ -40,7 +40,7 @@ class HttpAccess {
   [[nodiscard]] bool is_own_page(const PageRequest& request) const;
   [[nodiscard]] PageAnswer login(const PageRequest& request, Access::Time now);
   [[nodiscard]] PageAnswer logout(const PageRequest& request);
-  [[nodiscard]] PageAnswer acknowledge(const PageRequest& request, const Visitor& visitor, std::string_view alarm);
+  [[nodiscard]] PageAnswer act(const PageRequest& request, const Visitor& visitor, const AlarmOrder& order);
   [[nodiscard]] PageAnswer posted(const PageRequest& request, const Visitor& visitor);
 
   PageContent content_;

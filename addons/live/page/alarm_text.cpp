@@ -17,6 +17,10 @@ Json json_of(const Alarm& alarm) {
                           {"baseline", then.baseline},
                           {"state", then.state}});
   }
+  Json comments = Json::array();
+  for (const AlarmComment& one : alarm.comments) {
+    comments.push_back({{"time", utc(one.at_ms)}, {"by", one.by}, {"text", one.text}});
+  }
   const AlarmWords* const words = words_for(alarm.cause);
   const auto said = [&](std::string_view AlarmWords::*member) {
     return words == nullptr || (words->*member).empty() ? Json(nullptr) : Json(words->*member);
@@ -36,6 +40,9 @@ Json json_of(const Alarm& alarm) {
           {"meaning", said(&AlarmWords::meaning)},
           {"remedy", said(&AlarmWords::remedy)},
           {"indicator", said(&AlarmWords::indicator)},
+          {"shelved_until", utc_or_null(alarm.shelved_until_ms)},
+          {"shelved_by", alarm.shelved_by.empty() ? Json(nullptr) : Json(alarm.shelved_by)},
+          {"comments", std::move(comments)},
           {"recording", alarm.recording == 0 ? Json(nullptr) : Json(alarm.recording)},
           {"indicators", std::move(indicators)}};
 }

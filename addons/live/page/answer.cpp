@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "addons/live/http/target.hpp"
-#include "addons/live/page/alarm_text.hpp"
+#include "addons/live/page/alarm_orders.hpp"
 #include "addons/live/page/api_text.hpp"
 #include "addons/live/page/history_text.hpp"
 #include "addons/live/page/page_files.hpp"
@@ -208,22 +208,13 @@ NextFrame plot_of(const ValveAtWork& valve) {
   };
 }
 
-std::optional<PageAnswer> acknowledge(Engine& engine, std::string_view alarm, const std::string& by) {
-  std::int64_t id = 0;
-  const auto [end, error] = std::from_chars(alarm.data(), alarm.data() + alarm.size(), id);
-  if (error != std::errc() || end != alarm.data() + alarm.size()) return std::nullopt;
-  const auto found = engine.acknowledge(id, by);
-  if (!found) return PageAnswer{404, plain, "there is no alarm of this number\n"};
-  return PageAnswer{200, json, written(json_of(*found))};
-}
-
 }  // namespace
 
 PageContent site_page(Engine& engine) {
   return {.name = "spoolflow live",
           .answer = [&](std::string_view method, std::string_view target) { return answer_to(engine, method, target); },
           .is_file = [](std::string_view path) { return path == "/" || path == "/live.js" || path == "/live.css"; },
-          .acknowledge = [&](std::string_view alarm, const std::string& by) { return acknowledge(engine, alarm, by); },
+          .act = [&](const AlarmOrder& order, const std::string& by) { return act_on_alarm(engine, order, by); },
           .stream =
               [&](std::string_view path) {
                 const auto asked = valve_asked(path, "stream");

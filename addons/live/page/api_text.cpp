@@ -96,6 +96,7 @@ Json valve_of(const Engine& engine, std::size_t k) {
           {"samples", valve.samples},
           {"energy_J", valve.energy_J},
           {"indicators", indicators_of(valve)},
+          {"findings", source.findings},
           {"source", source_of(source)}};
 }
 
@@ -105,6 +106,19 @@ Json status_bits() {
   for (const sensor::StatusName& entry : sensor::status_names)
     out[std::string(entry.name)] = static_cast<std::uint32_t>(entry.bit);
   out[std::string(sensor::monitor_status_name.name)] = static_cast<std::uint32_t>(sensor::monitor_status_name.bit);
+  return out;
+}
+
+/// Who sends datagrams of no valve of the site.
+Json unknown_of(const Engine& engine) {
+  Json out = Json::array();
+  for (const UnknownSender& one : engine.unknown_senders()) {
+    out.push_back({{"valve", one.valve},
+                   {"sender", one.host},
+                   {"first", utc(one.first_ms)},
+                   {"last", utc(one.last_ms)},
+                   {"datagrams", one.datagrams}});
+  }
   return out;
 }
 
@@ -195,7 +209,8 @@ std::string site_json(const Engine& engine) {
              {"datagrams", udp.datagrams},
              {"unreadable", udp.unreadable},
              {"unknown_valve", udp.unknown_valve},
-             {"not_allowed", udp.not_allowed}}}});
+             {"not_allowed", udp.not_allowed},
+             {"unknown", unknown_of(engine)}}}});
 }
 
 }  // namespace spoolflow::live

@@ -17,16 +17,22 @@ std::string label(const std::string& id) {
 }
 
 std::string alarm_metrics(const Engine& engine) {
-  std::size_t there = 0, unacknowledged = 0;
+  std::size_t there = 0, unacknowledged = 0, shelved = 0;
   for (const Alarm& alarm : engine.alarms()) {
+    if (alarm.shelved_until_ms != 0) {
+      ++shelved;
+      continue;
+    }
     if (alarm.gone_ms == 0) ++there;
     if (alarm.acknowledged_ms == 0) ++unacknowledged;
   }
   return fmt::format(
       "# HELP spoolflow_alarms_raised Alarms that are not gone.\n# TYPE spoolflow_alarms_raised gauge\n"
       "spoolflow_alarms_raised {}\n# HELP spoolflow_alarms_unacknowledged Alarms that nobody has acknowledged.\n"
-      "# TYPE spoolflow_alarms_unacknowledged gauge\nspoolflow_alarms_unacknowledged {}\n",
-      there, unacknowledged);
+      "# TYPE spoolflow_alarms_unacknowledged gauge\nspoolflow_alarms_unacknowledged {}\n"
+      "# HELP spoolflow_alarms_shelved Alarms that are shelved for a time; the others count none of them.\n"
+      "# TYPE spoolflow_alarms_shelved gauge\nspoolflow_alarms_shelved {}\n",
+      there, unacknowledged, shelved);
 }
 
 /// Nothing where there is no store.

@@ -16,6 +16,7 @@
 #include "addons/live/fieldbus/fieldbus_outputs.hpp"
 #include "addons/live/http/secret_hash.hpp"
 #include "addons/live/http/server.hpp"
+#include "addons/live/notify/notifier.hpp"
 #include "addons/live/page/answer.hpp"
 #include "addons/live/page/plotjuggler.hpp"
 #include "addons/live/program/live_commands.hpp"
@@ -86,8 +87,9 @@ void live_command(const LiveArguments& arguments) {
   const auto fork_server = recording::fork_server_for(replayed_recordings(site));
   live::Engine engine(std::move(site), fmt::format("spoolflow {}", tool_version()));
   engine.report_by([](const std::string& text) { say("{}\n", text); });
-  engine.start();
   {
+    const live::Notifier notifier(engine);  // before the start: alarms from then on are news
+    engine.start();
     const live::PageServer server(site_page(engine), page,
                                   {arguments.site, [&](const std::string& text) { engine.note(text); }});
     std::optional<live::PlotJuggler> plotjuggler;

@@ -107,7 +107,32 @@ UdpCounters UdpReceiver::counters() const {
   return {datagrams_, unreadable_, unknown_valve_, not_allowed_};
 }
 
-void UdpReceiver::receive(std::span<const std::uint8_t> bytes) {
+std::vector<UnknownSender> UdpReceiver::unknown_senders() const {
+  const std::lock_guard lock(unknown_mutex_);
+  return unknown_;
+}
+
+void UdpReceiver::note_unknown(const std::string& valve, const std::string& host) {
+  std::string shown = valve;
+  std::replace_if(
+      shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  const std::int64_t now_ms =
+      std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::system_clock::now().time_since_epoch())
+          .count();
+  const std::lock_guard lock(unknown_mutex_);
+  auto same = std::find_if(unknown_.begin(), unknown_.end(),
+                           [&](const UnknownSender& one) { return one.valve == shown && one.host == host; });
+  if (same == unknown_.end()) {
+    if (unknown_.size() == most_unknown)
+      unknown_.erase(std::ranges::min_element(unknown_, {}, &UnknownSender::last_ms));
+    unknown_.push_back({shown, host, now_ms, now_ms, 0});
+    same = std::prev(unknown_.end());
+  }
+  same->last_ms = now_ms;
+  ++same->datagrams;
+}
+
+void UdpReceiver::receive(std::span<const std::uint8_t> bytes, const sockaddr_storage& peer) {
   auto read = read_datagram(bytes);
   Datagram* const datagram = std::get_if<Datagram>(&read);
   if (datagram == nullptr) {
@@ -117,6 +142,7 @@ void UdpReceiver::receive(std::span<const std::uint8_t> bytes) {
   const auto sender = senders_.find(datagram->valve);
   if (sender == senders_.end()) {
     ++unknown_valve_;
+    note_unknown(datagram->valve, peer_host(peer));
     return;
   }
   SampleBlock block = sender->second.order.next(std::move(*datagram), *sender->second.intake);
@@ -138,7 +164,7 @@ void UdpReceiver::run(const std::stop_token& stop) {
     datagrams_ += count;
     for (std::size_t k = 0; k < count; ++k) {
       if (may_send(allowed_, received.peer(k))) {
-        receive(received.bytes(k));
+        receive(received.bytes(k), received.peer(k));
       } else {
         ++not_allowed_;
       }

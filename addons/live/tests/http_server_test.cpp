@@ -33,7 +33,7 @@ PageContent a_page() {
                 return PageAnswer{200, media::plain, std::string(target)};
               },
           .is_file = [](std::string_view) { return false; },
-          .acknowledge = [](std::string_view, const std::string&) { return std::nullopt; },
+          .act = [](const AlarmOrder&, const std::string&) { return std::nullopt; },
           .stream = {}};
 }
 

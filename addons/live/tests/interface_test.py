@@ -25,8 +25,11 @@ def known_to_sources():
             text += file.read()
     whole = set(re.findall(r'"(/api/v1/[a-z]+|/metrics)"', text))
     below = {f"/api/v1/valves/{{id}}/{what}" for what in re.findall(r'valve_asked\(path, "([a-z]+)"\)', text)}
-    assert all(part in text for part in ('"/api/v1/recordings/"', '".csv"', '"/api/v1/alarms/"', '"/acknowledge"', '"/api/v1/valves/"'))
-    return whole | below | {"/api/v1/valves/{id}", "/api/v1/recordings/{number}.csv", "/api/v1/alarms/{number}/acknowledge"}
+    assert all(part in text for part in ('"/api/v1/recordings/"', '".csv"', '"/api/v1/alarms/"', '"/api/v1/valves/"'))
+    orders = re.search(r'behind : \{([^}]+)\}', text)[1]
+    acts = {f"/api/v1/alarms/{{number}}{what}" for what in re.findall(r'"(/[a-z]+)"', orders)}
+    assert len(acts) == 4
+    return whole | below | acts | {"/api/v1/valves/{id}", "/api/v1/recordings/{number}.csv"}
 
 
 try:
@@ -37,9 +40,9 @@ try:
                    '[[valve]]\nid = "a"\nmodel = "model.json"\nsource = { kind = "rig", seed = 1 }\n'
                    '[[valve]]\nid = "b"\nmodel = "model.json"\nsource = { kind = "udp" }\n')
     with Live(command, folder, "site.toml") as live:
-        def asked(path, method="GET"):
+        def asked(path, method="GET", body=None):
             own = {"Origin": f"http://127.0.0.1:{live.port}", "Content-Type": "application/json"}
-            status, _, text = live.ask(path, method, body={} if method == "POST" else None, headers=own)
+            status, _, text = live.ask(path, method, body=(body or {}) if method == "POST" else None, headers=own)
             return status, text
 
         described = json.loads(asked("/api/v1/openapi.json")[1])
@@ -55,7 +58,8 @@ try:
             method, = (each.upper() for each in methods)
             if path.endswith(("/stream", "/login", "/logout")):
                 continue  # a WebSocket, and what a page without accounts does not serve
-            status, text = asked(target, method)
+            body = {"shelve": {"hours": 1}, "comment": {"text": "seen"}}.get(path.rsplit("/", 1)[1], {})
+            status, text = asked(target, method, body)
             assert "there is nothing here" not in text and status != 405, (target, status, text)
             if "recordings/" in path:
                 continue  # there is no recording: refused by what is there

@@ -98,7 +98,8 @@ class Strangers(unittest.TestCase):
         for path in ("/api/v1/valves", "/api/v1/events", "/api/v1/alarms", "/api/v1/site", "/metrics",
                      "/api/v1/valves/v/indicators", "/api/v1/recordings"):
             self.assertEqual(self.ask(path)[0], 401, path)
-        self.assertEqual(self.ask("/api/v1/alarms/1/acknowledge", "POST")[0], 401)
+        for act in ("acknowledge", "shelve", "unshelve", "comment"):
+            self.assertEqual(self.ask(f"/api/v1/alarms/1/{act}", "POST")[0], 401, act)
         self.assertEqual(self.ask("/metrics", headers=self.bearer("eve.wrong"))[0], 401)
 
     def test_a_token_reads_and_does_not_acknowledge(self):
@@ -109,7 +110,8 @@ class Strangers(unittest.TestCase):
         for _ in range(20):
             self.assertEqual(self.ask("/metrics", headers=self.bearer())[0], 200)
         self.assertLess(time.monotonic() - begin, 20)  # its hash is computed once
-        self.assertEqual(self.ask("/api/v1/alarms/1/acknowledge", "POST", headers=self.bearer())[0], 403)
+        for act, body in (("acknowledge", {}), ("shelve", {"hours": 1}), ("unshelve", {}), ("comment", {"text": "seen"})):
+            self.assertEqual(self.ask(f"/api/v1/alarms/1/{act}", "POST", body, self.bearer())[0], 403, act)
 
     def test_a_password_opens_a_session_that_acknowledges_on_its_own_page(self):
         status, headers, text = self.login()
@@ -133,6 +135,9 @@ class Strangers(unittest.TestCase):
         status, _, text = self.ask(path, "POST", headers={**session, "Origin": self.origin()})
         self.assertEqual(status, 200)
         self.assertEqual(json.loads(text)["acknowledged_by"], "anna")
+        path = path.replace("acknowledge", "comment")
+        status, _, text = self.ask(path, "POST", {"text": "seen"}, {**session, "Origin": self.origin()})
+        self.assertEqual([(one["by"], one["text"]) for one in json.loads(text)["comments"]], [("anna", "seen")])
         self.ask("/api/v1/logout", "POST", headers={**session, "Origin": self.origin()})
         self.assertEqual(self.ask("/api/v1/valves", headers=session)[0], 401)
 

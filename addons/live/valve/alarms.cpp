@@ -5,24 +5,15 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/monitor/isolation.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::live {
 namespace {
 
-using monitor::Fault;
 using monitor::Ne107;
 
 bool is_cleared(const Alarm& alarm) {
-  return alarm.gone_ms != 0 && alarm.acknowledged_ms != 0;
-}
-
-Ne107 sign_named(std::string_view text) {
-  for (const Ne107 sign : {Ne107::maintenance_required, Ne107::out_of_specification, Ne107::function_check}) {
-    if (monitor::name(sign) == text) return sign;
-  }
-  return Ne107::failure;
+  return alarm.gone_ms != 0 && alarm.acknowledged_ms != 0 && alarm.shelved_until_ms == 0;
 }
 
 /// With a true minus sign, as all texts have.
@@ -54,49 +45,17 @@ std::vector<KeptIndicator> judged_indicators(const ValveView& valve) {
 
 }  // namespace
 
-std::string_view state_of(const Alarm& alarm) {
-  if (alarm.gone_ms != 0) return alarm.acknowledged_ms != 0 ? "cleared" : "gone_unacknowledged";
-  return alarm.acknowledged_ms != 0 ? "raised_acknowledged" : "raised_unacknowledged";
+Ne107 sign_named(std::string_view text) {
+  for (const Ne107 sign : {Ne107::maintenance_required, Ne107::out_of_specification, Ne107::function_check}) {
+    if (monitor::name(sign) == text) return sign;
+  }
+  return Ne107::failure;
 }
 
-std::vector<Trouble> troubles_of(const ValveView& valve, bool stalled) {
-  std::vector<Trouble> out;
-  if (stalled) out.push_back({std::string(no_samples), Ne107::function_check});
-  if (valve.condition == Ne107::good) return out;
-  const bool decided =
-      valve.doubted ||
-      std::any_of(valve.indicators.begin(), valve.indicators.end(),
-                  [](const monitor::Indicator& one) { return one.state == monitor::IndicatorState::raised; }) ||
-      std::any_of(valve.causes.begin(), valve.causes.end(),
-                  [](const monitor::Cause& one) { return one.fault == Fault::wrong_model; });
-  Ne107 explained = Ne107::good;
-  for (const monitor::Cause& cause : valve.causes) {
-    // What the status alone states is certain.
-    const bool failed = valve.condition == Ne107::failure && cause.odds >= monitor::most_odds;
-    if (!decided && !failed) continue;
-    const Ne107 sign = failed ? Ne107::failure : monitor::sign_of(cause.fault);
-    explained = std::max(explained, sign);
-    out.push_back({std::string(monitor::name(cause.fault)), sign, cause.odds});
-  }
-  if (explained >= valve.condition) return out;
-  // No cause is reported: the share of time of a status made the sign, or the charts did, and nothing explains them.
-  switch (valve.condition) {
-    case Ne107::maintenance_required:
-      out.push_back({"maintenance_required", valve.condition});
-      break;
-    case Ne107::out_of_specification:
-      out.push_back({"out_of_specification", valve.condition});
-      break;
-    case Ne107::function_check:
-      out.push_back({"function_check", valve.condition});
-      break;
-    case Ne107::failure:
-      out.push_back({"failure", valve.condition});
-      break;
-    case Ne107::good:
-      break;
-  }
-  return out;
+std::string_view state_of(const Alarm& alarm) {
+  if (alarm.shelved_until_ms != 0) return "shelved";
+  if (alarm.gone_ms != 0) return alarm.acknowledged_ms != 0 ? "cleared" : "gone_unacknowledged";
+  return alarm.acknowledged_ms != 0 ? "raised_acknowledged" : "raised_unacknowledged";
 }
 
 void Alarms::restore(std::vector<Alarm> alarms) {
@@ -204,7 +163,9 @@ std::vector<AlarmChange> Alarms::follow(const ValveView& valve, const std::vecto
   }
   for (Entry& entry : entries_) {
     Alarm& alarm = entry.alarm;
-    if (alarm.valve != valve.id || alarm.gone_ms != 0 || is_there(alarm.cause)) continue;
+    if (alarm.valve != valve.id) continue;
+    follow_shelf(alarm, now_ms, changes);
+    if (alarm.gone_ms != 0 || is_there(alarm.cause)) continue;
     if (entry.away_since_ms == 0 || now_ms < entry.away_since_ms) entry.away_since_ms = now_ms;
     if (static_cast<double>(now_ms - entry.away_since_ms) < 1e3 * delays_.gone_after_s) continue;
     alarm.gone_ms = now_ms;
@@ -226,19 +187,79 @@ void Alarms::forget_the_oldest() {
   });
 }
 
+Alarms::Entry* Alarms::numbered(std::int64_t id) {
+  const auto found =
+      std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.alarm.id == id; });
+  return found == entries_.end() ? nullptr : &*found;
+}
+
 std::optional<Alarm> Alarms::acknowledge(std::int64_t id, const std::string& by, std::int64_t now_ms) {
   const std::lock_guard lock(mutex_);
-  for (Entry& entry : entries_) {
-    Alarm& alarm = entry.alarm;
-    if (alarm.id != id) continue;
-    if (alarm.acknowledged_ms == 0) {
-      alarm.acknowledged_ms = now_ms;
-      alarm.acknowledged_by = by;
-      changed_.insert(id);
-    }
-    return alarm;
+  Entry* const entry = numbered(id);
+  if (entry == nullptr) return std::nullopt;
+  Alarm& alarm = entry->alarm;
+  if (alarm.acknowledged_ms == 0) {
+    alarm.acknowledged_ms = now_ms;
+    alarm.acknowledged_by = by;
+    changed_.insert(id);
   }
-  return std::nullopt;
+  return alarm;
+}
+
+std::optional<Alarm> Alarms::shelve(std::int64_t id, const std::string& by, std::int64_t until_ms,
+                                    std::int64_t now_ms) {
+  const std::lock_guard lock(mutex_);
+  Entry* const entry = numbered(id);
+  if (entry == nullptr) return std::nullopt;
+  if (!is_cleared(entry->alarm)) {
+    entry->alarm.shelved_ms = now_ms;
+    entry->alarm.shelved_until_ms = until_ms;
+    entry->alarm.shelved_by = by;
+    changed_.insert(id);
+  }
+  return entry->alarm;
+}
+
+/// Where it still stands, it is to be seen again.
+void Alarms::take_off_the_shelf(Alarm& alarm) {
+  alarm.shelved_ms = alarm.shelved_until_ms = 0;
+  alarm.shelved_by.clear();
+  if (alarm.gone_ms == 0) {
+    alarm.acknowledged_ms = 0;
+    alarm.acknowledged_by.clear();
+  }
+  changed_.insert(alarm.id);
+}
+
+std::optional<Alarm> Alarms::unshelve(std::int64_t id) {
+  const std::lock_guard lock(mutex_);
+  Entry* const entry = numbered(id);
+  if (entry == nullptr) return std::nullopt;
+  if (entry->alarm.shelved_until_ms != 0) take_off_the_shelf(entry->alarm);
+  return entry->alarm;
+}
+
+void Alarms::follow_shelf(Alarm& alarm, std::int64_t now_ms, std::vector<AlarmChange>& changes) {
+  if (alarm.shelved_until_ms == 0) return;
+  if (now_ms < alarm.shelved_ms) {  // a clock that was set back must not keep it there
+    alarm.shelved_until_ms -= alarm.shelved_ms - now_ms;
+    alarm.shelved_ms = now_ms;
+    changed_.insert(alarm.id);
+  }
+  if (now_ms < alarm.shelved_until_ms) return;
+  take_off_the_shelf(alarm);
+  changes.push_back({AlarmChange::Kind::back, alarm});
+}
+
+std::optional<Alarm> Alarms::comment(std::int64_t id, const AlarmComment& comment) {
+  const std::lock_guard lock(mutex_);
+  Entry* const entry = numbered(id);
+  if (entry == nullptr) return std::nullopt;
+  std::vector<AlarmComment>& all = entry->alarm.comments;
+  if (all.size() == most_comments) all.erase(all.begin());
+  all.push_back(comment);
+  changed_.insert(id);
+  return entry->alarm;
 }
 
 void Alarms::name_recording(std::int64_t id, std::int64_t recording) {

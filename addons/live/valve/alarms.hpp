@@ -4,6 +4,8 @@
 ///     raised, unacknowledged -> raised, acknowledged
 ///              |        ^              |
 ///     gone, unacknowledged -------> cleared
+///
+/// Whatever it is, it can be shelved for a time; then it comes back by itself, unacknowledged where it still stands.
 #include <mutex>
 #include <optional>
 #include <set>
@@ -12,23 +14,15 @@
 #include <vector>
 
 #include "addons/live/history/alarm_table.hpp"
-#include "addons/live/valve/valve_at_work.hpp"
+#include "addons/live/valve/troubles.hpp"
 
 namespace spoolflow::live {
 
-/// "raised_unacknowledged", "raised_acknowledged", "gone_unacknowledged" or "cleared".
+/// "raised_unacknowledged", "raised_acknowledged", "gone_unacknowledged", "cleared" or, whatever else it is, "shelved".
 [[nodiscard]] std::string_view state_of(const Alarm& alarm);
 
-/// One thing that is wrong with a valve at an instant.
-struct Trouble {
-  std::string cause;  ///< of the monitor, no_samples, or the words of its sign ("function_check")
-  monitor::Ne107 sign;
-  double odds = 0;  ///< of the monitor's causes; 0: no matter of odds
-};
-/// The cause that the sources make.
-inline constexpr std::string_view no_samples = "no_samples";
-/// What makes the valve's condition; what the monitor merely suspects is none of it. `stalled`: no samples come.
-[[nodiscard]] std::vector<Trouble> troubles_of(const ValveView& valve, bool stalled);
+/// Of an alarm's text "M", "S", "C" or "F".
+[[nodiscard]] monitor::Ne107 sign_named(std::string_view text);
 
 /// How long something must stand until it is raised, and be away until it is gone, by the wall clock.
 struct AlarmDelays {
@@ -45,7 +39,7 @@ struct AlarmWait {
 
 /// What became of an alarm.
 struct AlarmChange {
-  enum class Kind : std::uint8_t { raised, worse, gone };
+  enum class Kind : std::uint8_t { raised, worse, back, gone };  ///< back: from the shelf
   Kind kind;
   Alarm alarm;
 };
@@ -53,7 +47,8 @@ struct AlarmChange {
 /// Safe to be asked from any thread.
 class Alarms {
  public:
-  static constexpr int most_cleared = 200;  ///< of those at hand; the store keeps the others
+  static constexpr int most_cleared = 200;           ///< of those at hand; the store keeps the others
+  static constexpr std::size_t most_comments = 100;  ///< of an alarm: the oldest leave
 
   explicit Alarms(const AlarmDelays& delays) : delays_(delays) {}
   /// From the store, ascending by id.
@@ -66,6 +61,12 @@ class Alarms {
   std::vector<AlarmChange> follow(const ValveView& valve, const std::vector<Trouble>& troubles, std::int64_t now_ms);
   /// Nothing where there is no such alarm; one that was acknowledged before stays as it was.
   std::optional<Alarm> acknowledge(std::int64_t id, const std::string& by, std::int64_t now_ms);
+  /// Until then it is nobody's business; one that is cleared stays as it was. Nothing where there is no such alarm, in
+  /// all of these.
+  std::optional<Alarm> shelve(std::int64_t id, const std::string& by, std::int64_t until_ms, std::int64_t now_ms);
+  /// At once, as at the end of its time.
+  std::optional<Alarm> unshelve(std::int64_t id);
+  std::optional<Alarm> comment(std::int64_t id, const AlarmComment& comment);
   /// The raw samples around it are kept under that number.
   void name_recording(std::int64_t id, std::int64_t recording);
 
@@ -90,6 +91,9 @@ class Alarms {
   bool has_stood(const std::string& valve, const std::string& cause, std::int64_t now_ms);
   void stand(Entry& entry, const Trouble& trouble, std::int64_t now_ms, std::vector<AlarmChange>& changes);
   void forget_the_oldest();
+  Entry* numbered(std::int64_t id);
+  void take_off_the_shelf(Alarm& alarm);
+  void follow_shelf(Alarm& alarm, std::int64_t now_ms, std::vector<AlarmChange>& changes);
 
   AlarmDelays delays_;
   mutable std::mutex mutex_;

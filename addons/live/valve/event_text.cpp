@@ -41,6 +41,7 @@ std::string clock_text(std::int64_t wall_ms, std::int64_t step_ms) {
 Event alarm_event(const ValveView& valve, const AlarmChange& change, std::int64_t wall_ms) {
   const char* const what = change.kind == AlarmChange::Kind::raised  ? "raised"
                            : change.kind == AlarmChange::Kind::worse ? "worse"
+                           : change.kind == AlarmChange::Kind::back  ? "back from the shelf"
                                                                      : "gone";
   const Alarm& alarm = change.alarm;
   return {.wall_ms = wall_ms,

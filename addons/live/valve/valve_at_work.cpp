@@ -117,7 +117,7 @@ void ValveAtWork::add_to_summary(const estimation::TimedSample& sample, const se
   to.status |= static_cast<std::uint32_t>(answer.status);
   if (!std::isfinite(sample.time_s)) return;
   const double step_s = sample.time_s - time_s_;
-  if (step_s > 0 && step_s <= longest_counted_step_s) {
+  if (step_s > 0 && step_s <= longest_counted_step_s && !sensor::has(answer.status, monitor::uncounted)) {
     const double energy_J = std::abs(flow) * answer.pressure_difference_Pa * step_s;
     if (std::isfinite(energy_J)) {
       to.energy_J += energy_J;

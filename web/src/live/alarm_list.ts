@@ -1,7 +1,8 @@
-/** Alarms with what was seen when they were raised, raw samples, and a button for those who may acknowledge. */
+/** Alarms with what was seen when they were raised, raw samples, and what those who may do with them. */
 import {
-  acknowledge, clock, duration, inUnit, keyOf, scaled, severity, short, signs, trendText, words, type Alarm, type Valve,
+  act, clock, duration, inUnit, isOpen, keyOf, scaled, severity, short, signs, trendText, words, type Alarm, type Valve,
 } from './api';
+import { AlarmDesk } from './alarm_desk';
 import { element, row, setText } from './element';
 import { visitor } from './visitor';
 
@@ -10,11 +11,12 @@ const states: Record<Alarm['state'], string> = {
   raised_acknowledged: 'raised, acknowledged',
   gone_unacknowledged: 'gone, not acknowledged',
   cleared: 'gone, acknowledged',
+  shelved: 'shelved',
 };
 
 /** What is there and not seen comes first. */
 const urgency: Record<Alarm['state'], number> =
-  { raised_unacknowledged: 0, gone_unacknowledged: 1, raised_acknowledged: 2, cleared: 3 };
+  { raised_unacknowledged: 0, gone_unacknowledged: 1, raised_acknowledged: 2, shelved: 3, cleared: 4 };
 
 class Entry {
   readonly place = element('li', 'alarm');
@@ -26,6 +28,8 @@ class Entry {
   private readonly when = element('p', 'when');
   private readonly links = element('p', 'links');
   private readonly button = element('button', 'acknowledge', 'Acknowledge');
+  private readonly comments = element('ul', 'comments');
+  private readonly desk: AlarmDesk;
   private readonly trouble = element('p', 'stale');
   private shown = '';
 
@@ -34,11 +38,12 @@ class Entry {
     valve.href = `#/valve/${encodeURIComponent(alarm.valve)}`;
     this.button.type = 'button';
     this.button.setAttribute('aria-label', `Acknowledge alarm ${alarm.id}: ${words(alarm.cause)} of ${alarm.valve}`);
-    this.button.addEventListener('click', () => void this.acknowledge(keyOf(alarm)));
+    this.button.addEventListener('click', () => void this.order(keyOf(alarm), 'acknowledge'));
+    this.desk = new AlarmDesk(alarm, (what, body) => this.order(keyOf(alarm), what, body));
     const head = element('p', 'what', this.sign, ' ', valve, ' ', element('b', '', words(alarm.cause)), ' ', this.state);
     this.place.append(head, this.button, this.meaning, this.growth, this.remedy, this.when);
     if (alarm.indicators.length > 0) this.place.append(this.indicators(alarm));
-    this.place.append(this.links, this.trouble);
+    this.place.append(this.links, this.comments, this.desk.place, this.trouble);
     this.trouble.hidden = true;
   }
 
@@ -59,13 +64,18 @@ class Entry {
 
   show(alarm: Alarm): void {
     this.place.dataset['state'] = alarm.state;
-    this.button.hidden = alarm.acknowledged !== null || visitor.session.role !== 'acknowledge';
-    const all = JSON.stringify([alarm.ne107, alarm.state, alarm.times, alarm.gone, alarm.acknowledged, alarm.recording]);
+    this.button.hidden = !isOpen(alarm) || visitor.session.role !== 'acknowledge';
+    this.desk.show(alarm);
+    const all = JSON.stringify([alarm.ne107, alarm.state, alarm.times, alarm.gone, alarm.acknowledged, alarm.recording, alarm.shelved_until, alarm.comments]);
     if (this.shown === all) return;
     this.shown = all;
     setText(this.sign, signs[alarm.ne107]);
     this.sign.dataset['sign'] = alarm.ne107;
-    setText(this.state, states[alarm.state]);
+    setText(this.state, alarm.shelved_until == null ? states[alarm.state]
+      : `shelved by ${alarm.shelved_by} until ${clock(alarm.shelved_until)}`);
+    this.comments.replaceChildren(...(alarm.comments ?? []).map((one) =>
+      element('li', '', element('time', '', clock(one.time)), ' ', element('b', '', one.by), ` ${one.text}`)));
+    this.comments.hidden = (alarm.comments ?? []).length === 0;
     setText(this.meaning, alarm.meaning ?? '');
     setText(this.remedy, alarm.remedy ?? '');
     this.meaning.hidden = alarm.meaning == null;
@@ -82,11 +92,11 @@ class Entry {
     this.links.append(link);
   }
 
-  private async acknowledge(key: string): Promise<void> {
+  private async order(key: string, what: string, body?: unknown): Promise<void> {
     const focused = document.activeElement === this.button;
     this.button.disabled = true;
     try {
-      this.show(await acknowledge(key));
+      this.show(await act(key, what, body));
       this.trouble.hidden = true;
     } catch (error) {
       this.trouble.hidden = false;

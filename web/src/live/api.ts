@@ -35,6 +35,8 @@ export interface Valve {
   samples: number;
   energy_J: number | null;
   indicators: Indicator[];
+  /** What speaks against units and wiring of its samples. */
+  findings: string[];
   source: {
     kind: string; stalled: boolean; age_s: number | null; trouble: string;
     received: number; dropped: number; lost: number; repeated: number; unreadable: number; connections: number; port?: number;
@@ -59,7 +61,7 @@ export interface Alarm {
   valve: string;
   cause: string;
   ne107: Sign;
-  state: 'raised_unacknowledged' | 'raised_acknowledged' | 'gone_unacknowledged' | 'cleared';
+  state: 'raised_unacknowledged' | 'raised_acknowledged' | 'gone_unacknowledged' | 'cleared' | 'shelved';
   raised: string;
   times: number;
   gone: string | null;
@@ -71,6 +73,10 @@ export interface Alarm {
   remedy?: string | null;
   /** Whose course shows how fast it grows. */
   indicator?: string | null;
+  /** Not in a fleet's. */
+  shelved_until?: string | null;
+  shelved_by?: string | null;
+  comments?: { time: string; by: string; text: string }[];
   recording: number | null;
   indicators: Indicator[];
 }
@@ -92,7 +98,8 @@ export interface Site {
   store_mended: { time: string; text: string } | null;
   /** Of the status word. */
   status_bits: Record<string, number>;
-  udp: { port: number; datagrams: number; unreadable: number; unknown_valve: number; not_allowed: number };
+  udp: { port: number; datagrams: number; unreadable: number; unknown_valve: number; not_allowed: number;
+    unknown: { valve: string; sender: string; first: string; last: string; datagrams: number }[] };
 }
 
 export interface Session {
@@ -169,15 +176,18 @@ export const readSession = (): Promise<Session> => read<Session>('/api/v1/sessio
 export const logIn = (name: string, password: string): Promise<Session> => post<Session>('/api/v1/login', { name, password });
 export const logOut = (): Promise<Session> => post<Session>('/api/v1/logout');
 export const keyOf = (alarm: Alarm): string => alarm.key ?? String(alarm.id);
-export const acknowledge = (key: string): Promise<Alarm> => post<Alarm>(`/api/v1/alarms/${key}/acknowledge`);
+/** `what`: "acknowledge", "shelve", "unshelve" or "comment". */
+export const act = (key: string, what: string, body: unknown = {}): Promise<Alarm> => post<Alarm>(`/api/v1/alarms/${key}/${what}`, body);
+/** Whether nobody has seen it who should. */
+export const isOpen = (alarm: Alarm): boolean => alarm.acknowledged === null && alarm.state !== 'shelved';
 
-function since(id: string, what: string, seconds: number): string {
-  const now = Date.now() / 1000;
-  return `/api/v1/valves/${encodeURIComponent(id)}/${what}?from=${(now - seconds).toFixed(0)}&to=${(now + 1).toFixed(0)}`;
-}
-export const readIndicators = async (id: string, seconds: number): Promise<IndicatorHistory[]> =>
-  (await readLong<{ indicators: IndicatorHistory[] }>(since(id, 'indicators', seconds))).indicators;
-export const readFlow = (id: string, seconds: number): Promise<FlowHistory> => readLong<FlowHistory>(since(id, 'history', seconds));
+/** Of seconds since 1970. */
+const between = (id: string, what: string, from: number, to: number): string =>
+  `/api/v1/valves/${encodeURIComponent(id)}/${what}?from=${from.toFixed(0)}&to=${Math.ceil(to).toFixed(0)}`;
+export const readIndicators = async (id: string, from: number, to: number): Promise<IndicatorHistory[]> =>
+  (await readLong<{ indicators: IndicatorHistory[] }>(between(id, 'indicators', from, to))).indicators;
+export const readFlow = (id: string, from: number, to: number): Promise<FlowHistory> =>
+  readLong<FlowHistory>(between(id, 'history', from, to));
 
 /** Each sign of NAMUR NE 107 in words. */
 export const signs: Record<Sign, string> = {

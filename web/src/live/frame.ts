@@ -29,7 +29,7 @@ export interface Page<Data> {
 
 /** The valve that the address names. */
 export function valveOf(hash: string): string | null {
-  const valve = /^#\/valve\/(.+)$/.exec(hash);
+  const valve = /^#\/valve\/([^?]+)/.exec(hash);
   return valve === null ? null : decodeURIComponent(valve[1]!);
 }
 

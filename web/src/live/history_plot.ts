@@ -22,6 +22,12 @@ export interface Curve {
   alarmAbove: number | null;
 }
 
+/** Another valve's over the same time. */
+export interface Beside {
+  name: string;
+  curve: Curve;
+}
+
 const tall = 150;
 const font = '12px system-ui, sans-serif';
 
@@ -57,6 +63,7 @@ export class HistoryPlot {
   private readonly room = element('div', 'room');
   private plot: uPlot | null = null;
   private curve: Curve | null = null;
+  private beside: Beside | null = null;
   private range: [number, number] | null = null;
 
   constructor(private readonly group: string) {
@@ -67,25 +74,28 @@ export class HistoryPlot {
   }
 
   /** The range is kept where the reader has zoomed into the same span. */
-  show(curve: Curve, from: number, to: number): void {
-    const zoom = this.zoomed(to - from);
+  show(curve: Curve, from: number, to: number, beside: Beside | null = null): void {
+    const zoom = this.zoomed(from, to);
     this.curve = curve;
+    this.beside = beside;
     this.title.textContent = curve.title;
     const known = [...curve.middle].reverse().find((value) => value !== null) ?? null;
-    this.place.setAttribute('aria-label', `${curve.title} over time, last ${known ?? 'not known'}`);
-    const data = [curve.times, curve.upper, curve.lower, curve.middle, curve.usual ?? curve.times.map(() => null)];
-    if (this.plot === null) this.plot = this.made(data as uPlot.AlignedData);
-    else this.plot.setData(data as uPlot.AlignedData, false);
+    this.place.setAttribute('aria-label', `${curve.title} over time, last ${known ?? 'not known'}${beside === null ? '' : `, with ${beside.name}`}`);
+    const other = beside?.curve ?? { times: [], upper: [], lower: [], middle: [] };
+    const data = uPlot.join([[curve.times, curve.upper, curve.lower, curve.middle, curve.usual ?? curve.times.map(() => null)],
+                             [other.times, other.upper, other.lower, other.middle]] as uPlot.AlignedData[]);
+    if (this.plot === null) this.plot = this.made(data);
+    else this.plot.setData(data, false);
     this.plot.setScale('x', zoom ?? { min: from, max: to });
     this.range = zoom === null ? [from, to] : this.range;
     this.resize();
   }
 
-  private zoomed(span: number): { min: number; max: number } | null {
+  private zoomed(begin: number, end: number): { min: number; max: number } | null {
     const min = this.plot?.scales['x']?.min, max = this.plot?.scales['x']?.max, times = this.curve?.times ?? [];
     if (this.range === null || min == null || max == null) return null;
-    const [from, to] = this.range;
-    if (Math.abs((to - from) - span) > 0.1 * span) return null;  // another span was asked for
+    const [from, to] = this.range, span = end - begin;
+    if (Math.abs((to - from) - span) > 0.1 * span || Math.abs(to - end) > 0.1 * span) return null;  // another time was asked for
     const whole = (min === from && max === to) || (min === times[0] && max === times[times.length - 1]);
     return whole ? null : { min, max };
   }
@@ -144,8 +154,11 @@ export class HistoryPlot {
         { ...none, width: 0 },
         { ...none, stroke: () => colour('observer'), width: 1.6, points: { show: data[0].length < 40, size: 4 } },
         { ...none, stroke: () => colour('soft'), width: 1, dash: [5, 4] },
+        { ...none, width: 0 },
+        { ...none, width: 0 },
+        { ...none, stroke: () => colour('condensed'), width: 1.6 },
       ],
-      bands: [{ series: [1, 2], fill: () => paleColour('observer', 0.2) }],
+      bands: [{ series: [1, 2], fill: () => paleColour('observer', 0.2) }, { series: [5, 6], fill: () => paleColour('condensed', 0.2) }],
       hooks: { draw: [(plot) => this.markRaised(plot), (plot) => this.markLimits(plot)], setCursor: [(plot) => this.read(plot)] },
     }, data, this.room);
   }
@@ -160,7 +173,7 @@ export class HistoryPlot {
   }
 
   private markRaised(plot: uPlot): void {
-    const raised = this.curve?.raised ?? [], times = plot.data[0];
+    const raised = this.curve?.raised ?? [], times = this.curve?.times ?? [];
     plot.ctx.save();
     plot.ctx.fillStyle = colour('fault');
     const { left, top, width } = plot.bbox;
@@ -196,14 +209,13 @@ export class HistoryPlot {
   private read(plot: uPlot): void {
     const curve = this.curve, k = plot.cursor.idx;
     if (curve === null) return;
-    const value = k === null || k === undefined ? null : curve.middle[k];
-    if (value === null || value === undefined) {
+    const at = (series: number): number | null => (k === null || k === undefined ? null : plot.data[series]?.[k]) ?? null;
+    if (at(3) === null && at(7) === null) {
       this.title.textContent = curve.title;
       return;
     }
-    const digits = (each: number | null | undefined): string =>
-      each === null || each === undefined ? '–' : String(Number(each.toPrecision(4))).replace('-', '−');
-    this.title.textContent = `${curve.title}: ${digits(value)} (${digits(curve.lower[k!])} to ${digits(curve.upper[k!])}), ` +
-      clock(curve.times[k!]! * 1000);
+    const digits = (each: number | null): string => each === null ? '–' : String(Number(each.toPrecision(4))).replace('-', '−');
+    const one = (series: number): string => `${digits(at(series + 2))} (${digits(at(series + 1))} to ${digits(at(series))})`;
+    this.title.textContent = `${curve.title}: ${one(1)}${this.beside === null ? '' : `, ${this.beside.name} ${one(5)}`}, ${clock(at(0)! * 1000)}`;
   }
 }

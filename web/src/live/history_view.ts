@@ -2,9 +2,9 @@
 import { grouped, inUnit, readFlow, readIndicators, Refusal, scaled, words, type FlowHistory, type Indicator, type IndicatorHistory } from './api';
 import { element, setText } from './element';
 import { HistoryPlot, withGaps, type Curve } from './history_plot';
+import { RangeControl, type Asked } from './range_control';
 
-const spans: [string, number][] = [['1 hour', 3600], ['1 day', 86400], ['1 week', 7 * 86400], ['30 days', 30 * 86400]];
-const refresh_ms = 30000;
+const refresh_ms = 30000, again_ms = 3000;
 /** As the program thins them (addons/live/history/long_history.hpp). */
 const mostPoints = 600;
 
@@ -43,34 +43,57 @@ function powerCurve(flow: FlowHistory): Curve {
   };
 }
 
+/** Of a figure that the valve beside has alone. */
+const nothing = (like: Curve): Curve =>
+  ({ title: like.title, times: [], middle: [], lower: [], upper: [], usual: null, raised: [], alarmBelow: null, alarmAbove: null });
+
+/** All that is kept of a valve in a time, by name, each with the seconds between its rows. */
+function curvesOf(flow: FlowHistory, indicators: readonly IndicatorHistory[], now: readonly Indicator[]): Map<string, [Curve, number]> {
+  const out = new Map<string, [Curve, number]>();
+  if (flow.time_ms.length > 0) out.set('flow', [flowCurve(flow), 1]).set('power', [powerCurve(flow), 1]);
+  for (const one of indicators) {
+    if (!one.value.some((value) => value !== null)) continue;
+    out.set(one.name, [curveOf(one, now.find((each) => each.name === one.name)), 60]);
+  }
+  return out;
+}
+
+interface Read {
+  flow: FlowHistory;
+  indicators: IndicatorHistory[];
+}
+async function readBoth(id: string, { from, to }: Asked): Promise<Read> {
+  // One after the other: the program has few seats for those who read much.
+  const flow = await readFlow(id, from, to);
+  return { flow, indicators: await readIndicators(id, from, to) };
+}
+
 export class HistoryView {
   readonly place = element('section', 'days');
   private readonly plots = new Map<string, HistoryPlot>();
   private readonly grid = element('div', 'plots');
   private readonly said = element('p', 'soft');
-  private readonly choice = element('select', '');
-  private asked = -Infinity;
+  private readonly legend = element('p', 'legend');
+  private readonly range: RangeControl;
+  private last = -Infinity;
   private waiting = 0;  // for answers
+  private answered = false;
   private closed = false;
   /** As they are now, with their limits. */
   private indicators: readonly Indicator[] = [];
-  /** Whether the span is the reader's, or was found to fit. */
-  private chosen = false;
 
   constructor(private readonly id: string) {
-    for (const [text, seconds] of spans) this.choice.add(new Option(text, String(seconds)));
-    this.choice.value = '86400';
-    this.choice.addEventListener('change', () => {
-      this.chosen = true;
-      void this.ask();
-    });
-    this.place.append(element('h3', '', 'Hours and days'), element('label', '', 'Span ', this.choice), this.said, this.grid);
+    this.range = new RangeControl(id, () => void this.ask());
+    this.legend.hidden = true;
+    this.place.append(element('h3', '', 'Hours and days'), this.range.place, this.said, this.legend, this.grid);
   }
 
-  /** Asks again now and then. */
-  follow(indicators: readonly Indicator[] = []): void {
+  /** Asks again now and then. `others`: valves that may be shown beside. */
+  follow(indicators: readonly Indicator[] = [], others: readonly string[] = []): void {
     this.indicators = indicators;
-    if (this.waiting === 0 && performance.now() - this.asked > refresh_ms) void this.ask();
+    this.range.offer(others);
+    const stands = this.answered && this.range.asked()?.moves === false;
+    if (!stands && this.waiting === 0 && performance.now() - this.last > (this.answered ? refresh_ms : again_ms)) void this.ask();
   }
   resize(): void {
     for (const plot of this.plots.values()) plot.resize();
@@ -84,21 +107,26 @@ export class HistoryView {
   }
 
   private async ask(): Promise<void> {
-    this.asked = performance.now();
+    const asked = this.range.asked();
+    if (asked === null) return;
+    this.last = performance.now();
     this.waiting += 1;
-    const seconds = Number(this.choice.value);
+    this.answered = false;
+    const mine = this.last;
     try {
-      const [flow, indicators] = await Promise.all([readFlow(this.id, seconds), readIndicators(this.id, seconds)]);
-      if (this.closed || seconds !== Number(this.choice.value)) return;
-      const oldest = Math.min(...flow.time_ms, ...indicators.flatMap((one) => one.time_ms));
-      if (!this.chosen && seconds > 3600 && Date.now() - oldest < 7.2e6) {  // a store that has just begun
-        this.choice.value = '3600';
-        this.chosen = true;
+      const read = await readBoth(this.id, asked);
+      const beside = asked.beside === null ? null : await readBoth(asked.beside, asked);
+      if (this.closed || mine !== this.last) return;
+      const oldest = Math.min(...read.flow.time_ms, ...read.indicators.flatMap((one) => one.time_ms));
+      if (!this.range.chosen && asked.to - asked.from > 3600 && Date.now() - oldest < 7.2e6) {  // a store that has just begun
+        this.range.shorten();
+        this.range.chosen = true;
         void this.ask();
         return;
       }
-      this.chosen = true;
-      this.show(seconds, flow, indicators);
+      this.range.chosen = true;
+      this.answered = true;
+      this.show(asked, read, beside);
     } catch (error) {
       setText(this.said, error instanceof Refusal ? error.message : 'The program does not answer.');
     } finally {
@@ -106,34 +134,38 @@ export class HistoryView {
     }
   }
 
-  private show(seconds: number, flow: FlowHistory, indicators: IndicatorHistory[]): void {
-    const now = Date.now() / 1000;
-    const oldest = Math.min(...flow.time_ms, ...indicators.flatMap((one) => one.time_ms)) / 1000;
-    const from = Math.max(now - seconds, Math.min(now - 120, oldest - 0.02 * (now - oldest)));
-    const curves: [string, Curve, number][] = [];
-    if (flow.time_ms.length > 0) curves.push(['flow', flowCurve(flow), 1], ['power', powerCurve(flow), 1]);
-    const { shown, more } = grouped(this.indicators), order = [...shown, ...more].map((one) => one.name);
+  private show(asked: Asked, read: Read, beside: Read | null): void {
+    const all = [read, ...(beside === null ? [] : [beside])];
+    const oldest = Math.min(...all.flatMap((one) => [...one.flow.time_ms, ...one.indicators.flatMap((each) => each.time_ms)])) / 1000;
+    const from = asked.moves ? Math.max(asked.from, Math.min(asked.to - 120, oldest - 0.02 * (asked.to - oldest))) : asked.from;
+    this.range.show(asked);
+    const curves = curvesOf(read.flow, read.indicators, this.indicators);
+    const others = beside === null ? null : curvesOf(beside.flow, beside.indicators, []);
+    const { shown, more } = grouped(this.indicators), order = ['flow', 'power', ...[...shown, ...more].map((one) => one.name)];
+    const names = [...new Set([...curves.keys(), ...(others?.keys() ?? [])])];
     const place = (name: string): number => (order.indexOf(name) + order.length + 1) % (order.length + 1);
-    for (const one of [...indicators].sort((a, b) => place(a.name) - place(b.name))) {
-      const now = this.indicators.find((each) => each.name === one.name);
-      if (one.value.some((value) => value !== null)) curves.push([one.name, curveOf(one, now), 60]);
-    }
-    setText(this.said, curves.length > 0 ? 'Shaded: the 95 % band (of the flow its outermost ends); dashed: baseline; red dots: values beyond count towards an alarm; red bar: raised. Drag to zoom, double click to come back; by keyboard plus, minus, arrows and 0.'
+    names.sort((a, b) => place(a) - place(b));
+    setText(this.said, names.length > 0 ? 'Shaded: the 95 % band (of the flow its outermost ends); dashed: baseline; red dots: values beyond count towards an alarm; red bar: raised. Drag to zoom, double click to come back; by keyboard plus, minus, arrows and 0.'
       : 'Nothing is kept of this time. Indicators are kept once a minute where the program has a store.');
+    this.legend.hidden = asked.beside === null;
+    this.legend.replaceChildren(element('span', 'first', this.id), ' ', element('span', 'second', asked.beside ?? ''));
     for (const [name, plot] of this.plots) {
-      if (curves.some(([own]) => own === name)) continue;
+      if (names.includes(name)) continue;
       plot.destroy();
       plot.place.remove();
       this.plots.delete(name);
     }
-    for (const [name, curve, step_s] of curves) {
+    for (const name of names) {
       let plot = this.plots.get(name);
       if (plot === undefined) {
         plot = new HistoryPlot(`days-${this.id}`);
         this.plots.set(name, plot);
         this.grid.append(plot.place);
       }
-      plot.show(withGaps(curve, 3 * Math.max(step_s, seconds / mostPoints)), from, now);
+      const [curve, step_s] = curves.get(name) ?? others!.get(name)!;
+      const whole = (one: Curve): Curve => withGaps(one, 3 * Math.max(step_s, (asked.to - asked.from) / mostPoints));
+      const second = others?.get(name)?.[0];
+      plot.show(curves.has(name) ? whole(curve) : nothing(curve), from, asked.to, second === undefined ? null : { name: asked.beside!, curve: whole(second) });
     }
   }
 }

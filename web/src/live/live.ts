@@ -1,5 +1,5 @@
 /** The page of `spoolflow live`: asks the program once a second, and follows one valve as its samples come. */
-import { figure, readAll, words, type LiveData } from './api';
+import { figure, isOpen, readAll, words, type LiveData } from './api';
 import { setText } from './element';
 import { run, valveOf, type View } from './frame';
 import { Overview } from './overview';
@@ -19,13 +19,13 @@ function totals({ site, valves, alarms }: LiveData): { text: string; open: numbe
   const text = `${site.valves} valves, ${bad} not good${site.stalled === 0 ? '' : `, ${site.stalled} without samples`}; ${figure(site.flow_L_min, 1)} L/min, ` +
     `${figure(site.hydraulic_power_W === null ? null : site.hydraulic_power_W / 1e3, 2)} kW hydraulic` +
     (site.store_trouble === '' ? '' : `; nothing is kept: ${site.store_trouble}`);
-  return { text, open: alarms.filter((alarm) => alarm.acknowledged === null).length };
+  return { text, open: alarms.filter(isOpen).length };
 }
 
 /** Screen readers announce alarms that are new since the page was opened. */
 function announce(data: LiveData, before: LiveData | null): void {
   const open = data.alarms.filter((alarm) => alarm.state === 'raised_unacknowledged');
-  const fresh = open.filter((alarm) => before !== null && !before.alarms.some((known) => known.id === alarm.id && known.times === alarm.times));
+  const fresh = open.filter((alarm) => before !== null && !before.alarms.some((known) => known.id === alarm.id && known.state === alarm.state && known.times === alarm.times));
   if (fresh.length > 0) setText(news, `New alarm: ${fresh.map((alarm) => `${words(alarm.cause)} of ${alarm.valve}`).join('; ')}`);
 }
 

@@ -1,7 +1,7 @@
 /** Every valve of the site on one card: flow, band, sign, the worst indicator, and a line of the last two minutes. */
 import { AlarmList } from './alarm_list';
 import {
-  duration, figure, inUnit, isOld, readRecent, scaled, severity, short, signs, words, type Indicator, type Recent, type LiveData, type Valve,
+  duration, figure, inUnit, isOld, isOpen, readRecent, scaled, severity, short, signs, words, type Indicator, type Recent, type LiveData, type Valve,
 } from './api';
 import { element, setText } from './element';
 import { EventList } from './event_list';
@@ -94,7 +94,9 @@ class Card {
     setText(this.flow, `${old && valve.flow_L_min !== null ? 'last ' : ''}${figure(valve.flow_L_min, 2)} L/min`);
     setText(this.band, `${figure(valve.flow_lower_L_min, 2)} to ${figure(valve.flow_upper_L_min, 2)}`);
     setText(this.worst, this.said(valve));
-    this.worst.dataset['raised'] = String(valve.indicators.some((one) => one.state === 'raised'));
+    this.worst.dataset['raised'] = String(valve.findings.length > 0 || valve.indicators.some((one) => one.state === 'raised'));
+    this.worst.title = valve.findings.join('\n');
+    this.worst.dataset['finding'] = String(!old && valve.findings.length > 0);
     this.seconds.push(old ? { flow: null, lower: null, upper: null }
       : { flow: valve.flow_L_min, lower: valve.flow_lower_L_min, upper: valve.flow_upper_L_min });
     if (this.seconds.length > history) this.seconds.shift();
@@ -108,6 +110,7 @@ class Card {
       const { age_s, trouble } = valve.source;
       return `no samples${age_s === null ? '' : ` for ${duration(age_s)}`}${trouble === '' ? '' : `: ${trouble}`}`;
     }
+    if (valve.findings.length > 0) return `its samples: ${valve.findings[0]!}`;
     const worst = worstOf(valve);
     if (worst === undefined) return valve.status.length > 0 ? valve.status.map(words).join(', ') : 'nothing judged yet';
     const { factor, unit } = inUnit(worst);
@@ -119,7 +122,7 @@ export class Overview {
   readonly place = element('div', '');
   private readonly cards = new Map<string, Card>();
   private readonly grid = element('section', 'cards');
-  private readonly alarms = new AlarmList((alarm) => alarm.state !== 'cleared' && alarm.state !== 'raised_acknowledged', 3);
+  private readonly alarms = new AlarmList(isOpen, 3);
   private readonly events = new EventList(30);
   private readonly wanted = element('input', '');
   private readonly worstFirst = element('input', '');
@@ -171,7 +174,8 @@ export class Overview {
     const fits = (valve: Valve): boolean => asked === '' || valve.id.toLowerCase().includes(asked) ||
       signs[valve.ne107].includes(asked) || valve.causes.some((one) => words(one.cause).includes(asked));
     const shown = this.data.valves.filter(fits);
-    if (this.worstFirst.checked) shown.sort((a, b) => severity[b.ne107] - severity[a.ne107]);
+    const rank = (valve: Valve): number => 2 * severity[valve.ne107] + Math.min(1, valve.findings.length);
+    if (this.worstFirst.checked) shown.sort((a, b) => rank(b) - rank(a));
     setText(this.count, `${shown.length} of ${this.data.valves.length} valves`);
     const links = shown.map((valve) => this.cards.get(valve.id)!.link);
     if (links.length === this.grid.children.length && links.every((link, k) => this.grid.children[k] === link)) return;

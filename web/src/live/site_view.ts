@@ -1,6 +1,6 @@
 /** The site as a whole: totals, what they were over the last minutes, how each source fares, all alarms. */
 import { AlarmList } from './alarm_list';
-import { clock, figure, severity, type LiveData, type Valve } from './api';
+import { clock, figure, isOpen, severity, type LiveData, type Valve } from './api';
 import { element, row, setText } from './element';
 
 class Tile {
@@ -45,6 +45,8 @@ export class SiteView {
   private readonly kept = element('p', 'kept');
   private readonly mended = element('p', 'stale');
   private readonly datagrams = element('p', 'kept');
+  private readonly unknown = element('tbody', '');
+  private readonly strangers = element('section', '');
   private readonly rates = new Rates();
   private readonly rows = new Map<string, HTMLTableCellElement[]>();
 
@@ -53,7 +55,9 @@ export class SiteView {
                                           'unreadable', 'connections', 'trouble'));
     this.place.append(element('h2', '', 'Site'), element('div', 'tiles', ...Object.values(this.tiles).map((tile) => tile.place)),
                       this.kept, this.mended, this.datagrams, element('h3', '', 'Sources'),
-                      element('div', 'wide', element('table', 'sources', head, this.sources)));
+                      element('div', 'wide', element('table', 'sources', head, this.sources)), this.strangers);
+    this.strangers.append(element('h3', '', 'Datagrams of valves that the site does not know'), element('div', 'wide', element('table', 'unknown', element(
+      'thead', '', row('th', 'id', 'sender', 'first', 'last', 'datagrams')), this.unknown)));
   }
 
   show({ valves, alarms, site }: LiveData): void {
@@ -61,7 +65,7 @@ export class SiteView {
     this.tiles.power.show(figure(site.hydraulic_power_W === null ? null : site.hydraulic_power_W / 1e3, 2));
     this.tiles.energy.show(figure(valves.reduce((sum, valve) => sum + (valve.energy_J ?? 0), 0) / 3.6e6, 3));
     this.tiles.good.show(`${valves.filter((valve) => severity[valve.ne107] === 0).length} of ${valves.length}`);
-    this.tiles.alarms.show(String(alarms.filter((alarm) => alarm.acknowledged === null).length));
+    this.tiles.alarms.show(String(alarms.filter(isOpen).length));
     this.tiles.stalled.show(String(site.stalled));
     setText(this.kept, site.store === '' ? 'Nothing is kept: the program was started without a store.'
       : site.store_trouble === '' ? `Kept in ${site.store}` : `Nothing is kept at present: ${site.store_trouble}`);
@@ -72,6 +76,9 @@ export class SiteView {
     this.datagrams.hidden = udp.port === 0;
     setText(this.datagrams, `UDP port ${udp.port}: ${udp.datagrams} datagrams, ${udp.unreadable} unreadable, ` +
       `${udp.unknown_valve} of unknown valves, ${udp.not_allowed} not allowed`);
+    this.strangers.hidden = udp.unknown.length === 0;
+    this.unknown.replaceChildren(...udp.unknown.map((one) =>
+      row('td', one.valve, one.sender, clock(one.first), clock(one.last), String(one.datagrams))));
     for (const valve of valves) this.showSource(valve);
   }
 
@@ -97,15 +104,19 @@ export class SiteView {
 /** All alarms, those that are over, too. */
 export class AlarmsView {
   readonly place = element('div', '');
-  private readonly open = new AlarmList((alarm) => alarm.state !== 'cleared', 200, true);
+  private readonly open = new AlarmList((alarm) => alarm.state !== 'cleared' && alarm.state !== 'shelved', 200, true);
+  private readonly shelved = new AlarmList((alarm) => alarm.state === 'shelved', 200, true);
   private readonly cleared = new AlarmList((alarm) => alarm.state === 'cleared', 200, true);
 
   constructor() {
-    this.place.append(element('h2', '', 'Alarms'), this.open.place, element('h3', '', 'Gone and acknowledged'), this.cleared.place);
+    this.place.append(element('h2', '', 'Alarms'), this.open.place, element('h3', '', 'Shelved'), this.shelved.place,
+                      element('h3', '', 'Gone and acknowledged'), this.cleared.place);
   }
   show({ alarms, valves }: LiveData): void {
     this.open.follow(valves);
     this.open.show(alarms);
+    this.shelved.follow(valves);
+    this.shelved.show(alarms);
     this.cleared.show(alarms);
   }
 }

@@ -32,6 +32,7 @@ export class ValveView {
   private readonly figures = element('p', 'figures');
   private readonly status = element('p', 'status');
   private readonly causes = element('p', 'causes');
+  private readonly findings = element('ul', 'findings stale');
   private readonly stale = element('p', 'stale', 'No new samples: what is shown is old.');
   private readonly age = element('p', 'soft');
   private readonly alarms: AlarmList;
@@ -53,7 +54,7 @@ export class ValveView {
     this.days = new HistoryView(id);
     const table = (body: HTMLElement): HTMLElement => element('div', 'wide', element('table', 'indicators', element(
       'thead', '', row('th', 'indicator', 'value', '± (95 %)', 'baseline', 'alarm beyond', 'unit', 'state', 'trend')), body));
-    this.place.append(element('h2', '', id, ' ', this.sign), this.figures, this.status, this.causes, this.alarms.place, this.stale, this.age,
+    this.place.append(element('h2', '', id, ' ', this.sign), this.figures, this.status, this.causes, this.findings, this.alarms.place, this.stale, this.age,
                       this.plot.canvas, element('h3', '', 'Indicators'),
                       table(this.indicators),
                       element('details', '', element('summary', 'soft', 'more indicators'), table(this.more)),
@@ -115,7 +116,7 @@ export class ValveView {
     this.alarms.follow(valves);
     this.alarms.show(alarms);
     this.events.show(events.filter((event) => event.valve === this.id));
-    this.days.follow(valve.indicators);
+    this.days.follow(valve.indicators, valves.map((one) => one.id));
     if (performance.now() - this.asked > 5000) void this.showRecordings();
   }
 
@@ -132,6 +133,8 @@ export class ValveView {
     const raised = valve.indicators.some((one) => one.state === 'raised');
     setText(this.causes, likely === '' ? '' : `${raised ? 'Likely' : 'Suspected, not decided'}: ${likely}`);
     this.causes.hidden = likely === '';
+    this.findings.replaceChildren(...valve.findings.map((one) => element('li', '', `Its samples: ${one}`)));
+    this.findings.hidden = valve.findings.length === 0;
   }
 
   private async showRecordings(): Promise<void> {

@@ -1,0 +1,67 @@
+#include "addons/live/page/alarm_orders.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include "addons/live/page/alarm_text.hpp"
+
+namespace spoolflow::live {
+namespace {
+
+using media::plain;
+
+constexpr double longest_shelf_h = 168;
+constexpr std::size_t longest_comment = 500;
+
+/// A number > 0 of hours, at most a week.
+std::optional<double> hours_asked(std::string_view body) {
+  const Json asked = Json::parse(body, nullptr, false);
+  if (!asked.is_object() || !asked.contains("hours") || !asked["hours"].is_number()) return std::nullopt;
+  const double hours = asked["hours"].get<double>();
+  return hours > 0 && hours <= longest_shelf_h ? std::optional(hours) : std::nullopt;
+}
+
+/// On one line, without blanks at its ends.
+std::optional<std::string> comment_asked(std::string_view body) {
+  const Json asked = Json::parse(body, nullptr, false);
+  if (!asked.is_object() || !asked.contains("text") || !asked["text"].is_string()) return std::nullopt;
+  std::string text = asked["text"].get<std::string>();
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
+  const std::size_t first = text.find_first_not_of(' ');
+  if (first == std::string::npos) return std::nullopt;
+  text = text.substr(first, text.find_last_not_of(' ') + 1 - first);
+  return text.size() <= longest_comment ? std::optional(text) : std::nullopt;
+}
+
+PageAnswer shown(const std::optional<Alarm>& alarm) {
+  if (!alarm) return {404, plain, "there is no alarm of this number\n"};
+  return {200, media::json, written(json_of(*alarm))};
+}
+
+PageAnswer shelved(Engine& engine, std::int64_t id, const AlarmOrder& order, const std::string& by) {
+  const auto hours = hours_asked(order.body);
+  if (!hours)
+    return {400, plain, fmt::format("shelve for a time of at most {} hours: {{\"hours\": 8}}\n", longest_shelf_h)};
+  const auto alarm = engine.shelve(id, by, *hours);
+  if (alarm && alarm->shelved_until_ms == 0) return {409, plain, "the alarm is gone and acknowledged\n"};
+  return shown(alarm);
+}
+
+}  // namespace
+
+std::optional<PageAnswer> act_on_alarm(Engine& engine, const AlarmOrder& order, const std::string& by) {
+  const std::string_view alarm = order.alarm;
+  std::int64_t id = 0;
+  const auto [end, error] = std::from_chars(alarm.data(), alarm.data() + alarm.size(), id);
+  if (error != std::errc() || end != alarm.data() + alarm.size()) return std::nullopt;
+  if (order.action == "acknowledge") return shown(engine.acknowledge(id, by));
+  if (order.action == "shelve") return shelved(engine, id, order, by);
+  if (order.action == "unshelve") return shown(engine.unshelve(id, by));
+  const auto text = comment_asked(order.body);
+  if (!text)
+    return PageAnswer{400, plain, fmt::format("a comment is {{\"text\": \"…\"}} of 1 to {} bytes\n", longest_comment)};
+  return shown(engine.comment(id, by, *text));
+}
+
+}  // namespace spoolflow::live
