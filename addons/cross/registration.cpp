@@ -1,5 +1,5 @@
-/// Makes the libraries for other platforms, the compiler of firmware and SSP files known to the export of every program that
-/// this file is linked into.
+/// Makes the libraries for other platforms, the compiler of firmware and SSP files known to the export of every program
+/// that this file is linked into.
 #include "addons/cross/embedded_foreign_binaries.hpp"
 #include "addons/cross/firmware_library.hpp"
 #include "addons/cross/system_structure.hpp"

@@ -58,7 +58,7 @@ std::string connection(const End& start, const End& end) {
 }
 
 struct Wiring {
-  std::string connectors;   ///< of the system
+  std::string connectors;  ///< of the system
   std::string connections;
 };
 

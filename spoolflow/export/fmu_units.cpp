@@ -45,8 +45,8 @@ const std::array<KnownUnit, 15> known_units{{
 }};
 
 const KnownUnit& known_unit(std::string_view name) {
-  const auto unit = std::find_if(known_units.begin(), known_units.end(),
-                                 [&](const KnownUnit& each) { return each.name == name; });
+  const auto unit =
+      std::find_if(known_units.begin(), known_units.end(), [&](const KnownUnit& each) { return each.name == name; });
   if (unit == known_units.end()) throw std::logic_error("no definition of the unit " + std::string(name));
   return *unit;
 }
