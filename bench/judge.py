@@ -16,7 +16,7 @@
 Rows of --shared: runs of valve A, its effects, and the sister valves by A's model, or by that of S1=MODEL.json; the whole
 valve by W=MODEL.json. The first column says whether constants may be chosen on the row (tuning) or not (judged). Figures are in
 percent of the model's rated flow: 95th percentile and largest size of the error, share of samples in the 95 % band, its mean
-width; whether the run holds: 92 % in the band, or half of the samples outside have a status that names the effect; then each
+width; whether the run holds: 92 % in the band, or half of the samples outside have a status or the run a finding that names the effect; then each
 status with its share of all samples and, in brackets, of those outside the band, and what is doubted of the run. A sample
 without an answer is outside, its error counts as 100 %. Standard library only.
 """
@@ -43,6 +43,8 @@ WHOLE = ("both_ramps_60bar", "both_duty_1")
 NAMED = {"above": ("outside_flow_force_map",), "far_above": ("outside_flow_force_map", "current_saturated"),
          "below": ("outside_flow_force_map",), "spikes": ("current_fault",), "silt": ("current_saturated",)}
 NAMED |= {"highdp01": NAMED["above"]}
+# And the findings about a whole run that do: what shakes the spool, what beats in the current.
+FOUND = {"vibration": "shakes", "vibration03": "shakes", "ripple": "shakes", "pwm": "beats"}
 
 
 def fail(message):
@@ -213,8 +215,9 @@ def words(row, doubts):
     return ", ".join(status + [f"doubt: {doubt.split(',')[0]}" for doubt in doubts])
 
 
-def holds(row, named):
-    return "band" if row["in_band"] >= 92 else "named" if named >= 50 else "no"
+def holds(row, named, effect, doubts):
+    found = effect in FOUND and any(FOUND[effect] in doubt for doubt in doubts)
+    return "band" if row["in_band"] >= 92 else "named" if named >= 50 or found else "no"
 
 
 def line(*cells):
@@ -224,7 +227,7 @@ def line(*cells):
 def pooled(results):
     """Rows of several runs together: each effect, each programme of clean runs, everything."""
     groups = {}
-    for run, figures, _ in results:
+    for run, figures, doubts in results:
         keys = [("all runs", run["set"]), ("effect " + run["effect"], run["set"])]
         if run["effect"] == "clean":
             keys.append(("clean " + run["programme"], run["set"]))
@@ -232,7 +235,7 @@ def pooled(results):
             group = groups.setdefault(key, {"figures": Figures(), "runs": []})
             group["figures"].merge(figures)
             row = figures.row()
-            group["runs"].append(dict(row, holds=holds(row, figures.named(run["effect"]))))
+            group["runs"].append(dict(row, holds=holds(row, figures.named(run["effect"]), run["effect"], doubts)))
     out = []
     for (name, set_), group in sorted(groups.items()):
         runs = group["runs"]
@@ -260,7 +263,7 @@ def report(results, environment, before):
     for run, figures, doubts in results:
         row = figures.row()
         print(line(run["set"], run["valve"], run["programme"], run["effect"], row["p95"], row["max"], row["in_band"], row["width"],
-                   *over_before(row, run, before), holds(row, figures.named(run["effect"])), words(row, doubts)))
+                   *over_before(row, run, before), holds(row, figures.named(run["effect"]), run["effect"], doubts), words(row, doubts)))
     print("\nPooled over all samples; the worst of the runs; runs that hold, and those with 93 to 98.5 % in the band.\n")
     print(line("set", "pooled", "runs", "p95 % FS", "largest p95", "max % FS", "in band %", "least in band %", "mean width % FS",
                "runs that hold", "93 to 98.5 %"))

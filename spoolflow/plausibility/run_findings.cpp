@@ -18,6 +18,7 @@
 #include "spoolflow/plausibility/recording_error.hpp"
 #include "spoolflow/plausibility/reference_shift.hpp"
 #include "spoolflow/plausibility/run_relations.hpp"
+#include "spoolflow/plausibility/steady_lines.hpp"
 #include "spoolflow/plausibility/zero_findings.hpp"
 #include "spoolflow/recording/coil_channels.hpp"
 #include "spoolflow/units/conversion.hpp"
@@ -304,6 +305,8 @@ std::vector<Finding> run_findings(const std::vector<KnownValve>& valve, const Ru
   const std::optional<ErrorFinding> error = error_finding(trial);
   const std::string coarse = coarse_position(valve.front(), run.position_resolution());
   if (!coarse.empty() && !(error && error->of_position)) out.push_back({false, fmt::format("{}: {}", name, coarse)});
+  for (const std::string& line : steady_line_findings(run.steady_lines(), valve.front().position_noise_m))
+    out.push_back({false, fmt::format("{}: {}", name, line)});
   if (error) out.push_back({error->cannot_be, fmt::format("{}: {}", name, error->text)});
   return out;
 }

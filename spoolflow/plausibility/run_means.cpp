@@ -75,7 +75,16 @@ void RunMeans::take(const recording::SampleBlock& block) {
     begin = end;
   }
   find_gaps(block.column(Channel::time));
-  position_resolution_.take(block.column(Channel::time), block.column(Channel::position));
+  const std::vector<double>& time_s = block.column(Channel::time);
+  position_resolution_.take(time_s, block.column(Channel::position));
+  steady_lines_.position.take(time_s, block.column(Channel::position));
+  const bool both = !block.column(Channel::current_b).empty();
+  for (const Channel coil : {both ? Channel::current_b : Channel::current, Channel::current_a}) {
+    const std::size_t k = coil == Channel::current_a;
+    steady_lines_.current[k].take(time_s, block.column(coil));
+    for (const double current_A : block.column(coil))
+      steady_lines_.largest_current_A[k] = std::max(steady_lines_.largest_current_A[k], current_A);
+  }
 }
 
 recording::Recording RunMeans::means(const std::filesystem::path& file) const {

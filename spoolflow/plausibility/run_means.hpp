@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "spoolflow/plausibility/position_resolution.hpp"
+#include "spoolflow/plausibility/steady_lines.hpp"
 #include "spoolflow/recording/reader.hpp"
 #include "spoolflow/recording/recording.hpp"
 
@@ -27,6 +28,7 @@ class RunMeans {
   [[nodiscard]] recording::Recording means(const std::filesystem::path& file) const;
   [[nodiscard]] const Gaps& gaps() const { return gaps_; }
   [[nodiscard]] const PositionResolution& position_resolution() const { return position_resolution_; }
+  [[nodiscard]] const SteadyLines& steady_lines() const { return steady_lines_; }
 
  private:
   struct Column {
@@ -42,6 +44,7 @@ class RunMeans {
   std::uint64_t filled_ = 0;  ///< of the last block
   Gaps gaps_;
   PositionResolution position_resolution_;
+  SteadyLines steady_lines_;
   double last_s_ = 0;
   bool begun_ = false;
 };

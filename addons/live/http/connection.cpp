@@ -116,19 +116,18 @@ class Connection : public std::enable_shared_from_this<Connection> {
     parser_->header_limit(largest_header);
     parser_->body_limit(largest_request_body);
     beast::get_lowest_layer(stream_).expires_after(connection_patience);
-    http::async_read(stream_, heard_, *parser_,
-                     [self = shared_from_this()](beast::error_code error, std::size_t) {
-                       if (!error) {
-                         self->ask();
-                       } else if (error == http::error::header_limit) {
-                         self->refuse(431, "the request's head is longer than 8 KiB");
-                       } else if (error == http::error::body_limit) {
-                         self->refuse(413, "the request's body is longer than 1 KiB");
-                       } else if (error.category() == http::make_error_code(http::error::bad_method).category() &&
-                                  error != http::error::end_of_stream) {
-                         self->refuse(400, "this is no request of HTTP/1.1");
-                       }
-                     });
+    http::async_read(stream_, heard_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+      if (!error) {
+        self->ask();
+      } else if (error == http::error::header_limit) {
+        self->refuse(431, "the request's head is longer than 8 KiB");
+      } else if (error == http::error::body_limit) {
+        self->refuse(413, "the request's body is longer than 1 KiB");
+      } else if (error.category() == http::make_error_code(http::error::bad_method).category() &&
+                 error != http::error::end_of_stream) {
+        self->refuse(400, "this is no request of HTTP/1.1");
+      }
+    });
   }
 
   /// Whether everybody on the way sees the request end where this server does, and for the same host (RFC 9112 sections
@@ -188,8 +187,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
       reply(request, std::move(admission.answer));
       return;
     }
-    std::make_shared<PlotStream>(std::move(stream_), std::move(seat_), std::move(admission.stream))
-        ->accept(request);
+    std::make_shared<PlotStream>(std::move(stream_), std::move(seat_), std::move(admission.stream))->accept(request);
   }
 
   void reply(const Request& request, PageAnswer&& answer) {
@@ -247,7 +245,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
 }  // namespace
 
-void serve(tcp::socket&& socket, asio::ssl::context* tls, Seats::Seat&& seat, const std::string& host, const Hall& hall) {
+void serve(tcp::socket&& socket, asio::ssl::context* tls, Seats::Seat&& seat, const std::string& host,
+           const Hall& hall) {
   std::make_shared<Connection>(EitherStream(std::move(socket), tls), std::move(seat), host, hall)->begin();
 }
 

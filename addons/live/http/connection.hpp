@@ -74,8 +74,9 @@ struct Hall {
   const PageSettings& settings;
 };
 
-/// Answers the requests of one connection, one after the other, until it ends. `tls` null: without encryption; `host`: of the
-/// other side.
-void serve(tcp::socket&& socket, asio::ssl::context* tls, Seats::Seat&& seat, const std::string& host, const Hall& hall);
+/// Answers the requests of one connection, one after the other, until it ends. `tls` null: without encryption; `host`:
+/// of the other side.
+void serve(tcp::socket&& socket, asio::ssl::context* tls, Seats::Seat&& seat, const std::string& host,
+           const Hall& hall);
 
 }  // namespace spoolflow::live

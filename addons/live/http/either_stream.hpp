@@ -1,6 +1,6 @@
 #pragma once
-/// A TCP stream with or without TLS, as one stream of Boost.Beast: what is built on it is compiled once, and the layers below it
-/// know its handlers as one type alone.
+/// A TCP stream with or without TLS, as one stream of Boost.Beast: what is built on it is compiled once, and the layers
+/// below it know its handlers as one type alone.
 #include <cstddef>
 #include <functional>
 #include <memory>

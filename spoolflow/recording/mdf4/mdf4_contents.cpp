@@ -148,7 +148,8 @@ class Groups {
     constexpr int deepest = 8;
     while (at != 0) {
       const Mdf4Block block = taken(at, "##CN");
-      if (++channels_ > most_mdf4_channels) refuse_mdf4(block.what, fmt::format("more than {} channels", most_mdf4_channels));
+      if (++channels_ > most_mdf4_channels)
+        refuse_mdf4(block.what, fmt::format("more than {} channels", most_mdf4_channels));
       const std::string name = structure + read_text(file_, block.link(2));
       const std::uint64_t inside = block.link(1);
       const bool members = inside != 0 && read_head(file_, inside).id == "##CN";

@@ -1,0 +1,196 @@
+#include "spoolflow/plausibility/steady_lines.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <string>
+#include <unsupported/Eigen/FFT>
+
+#include <fmt/format.h>
+
+#include "spoolflow/numerics/median.hpp"
+#include "spoolflow/plausibility/limits.hpp"
+#include "spoolflow/units/conversion.hpp"
+
+namespace spoolflow::plausibility {
+namespace {
+
+constexpr std::size_t piece = 2048;  ///< points of a spectrum
+constexpr double point_s = 0.002;    ///< between them: means of the samples
+constexpr std::size_t bins = piece / 2;
+constexpr std::size_t most_pieces = 128;  ///< kept; then every second one, and every second one of those to come
+constexpr std::size_t fewest_pieces = 8;
+constexpr std::size_t own_bins = 4, neighbour_bins = 24;  ///< either side of a line, which a Hann window spreads
+constexpr double longest_step_s = 0.004, uneven = 1.5;    ///< of the time between samples
+constexpr double lowest_Hz = 15, highest_Hz = 120, highest_dither_Hz = 240, lowest_dither_Hz = 60;
+constexpr double near_Hz = 1;
+constexpr int most_harmonics = 30;
+constexpr double dither_share = 0.01;  ///< of the largest current
+
+const std::vector<double>& window() {
+  static const std::vector<double> hann = [] {
+    std::vector<double> out(piece);
+    for (std::size_t k = 0; k < piece; ++k)
+      out[k] = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * static_cast<double>(k) / piece);
+    return out;
+  }();
+  return hann;
+}
+
+}  // namespace
+
+struct MedianSpectrum::Parts {
+  Eigen::FFT<double> transform;
+  std::vector<double> points, windowed;
+  std::vector<std::complex<double>> spectrum;
+  std::vector<std::vector<float>> power;  ///< of each kept piece, in each bin
+  std::size_t stride = 1, passed = 0;     ///< one of so many pieces is kept; those since the last
+  double last_s = NAN, step_s = NAN, first_s = NAN;
+  double kept_s = 0;  ///< of all pieces, and
+  std::uint64_t kept_samples = 0;
+  double sum = 0;
+  std::size_t in_sum = 0, samples_a_point = 0, samples_of_point = 0;
+
+  void begin_again() {
+    points.clear();
+    sum = 0;
+    in_sum = samples_a_point = 0;
+    step_s = first_s = NAN;
+  }
+
+  void add(double time_s, double value) {
+    const double now_step_s = time_s - last_s;
+    last_s = time_s;
+    const bool is_even = now_step_s > 0 && now_step_s < longest_step_s && std::isfinite(value);
+    if (!is_even || (samples_a_point > 0 && (now_step_s > uneven * step_s || uneven * now_step_s < step_s))) {
+      begin_again();
+      if (!is_even) return;
+    }
+    if (samples_a_point == 0) {
+      step_s = now_step_s;
+      samples_a_point = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(point_s / step_s)));
+    }
+    if (std::isnan(first_s)) first_s = time_s;
+    sum += value;
+    if (++in_sum < samples_a_point) return;
+    points.push_back(sum / static_cast<double>(in_sum));
+    sum = 0;
+    in_sum = 0;
+    if (points.size() == piece) keep();
+  }
+
+  void keep() {
+    kept_s += last_s - first_s;
+    kept_samples += piece * samples_a_point - 1;
+    samples_of_point = samples_a_point;
+    first_s = NAN;
+    if (passed++ % stride == 0) {
+      // A straight line through both ends goes, so that a stroke shows no line.
+      constexpr std::size_t at_end = 25;
+      double first = 0, last = 0;
+      for (std::size_t k = 0; k < at_end; ++k) {
+        first += points[k] / at_end;
+        last += points[piece - 1 - k] / at_end;
+      }
+      windowed.resize(piece);
+      for (std::size_t k = 0; k < piece; ++k)
+        windowed[k] = window()[k] * (points[k] - first - (last - first) * static_cast<double>(k) / (piece - 1));
+      transform.fwd(spectrum, windowed);
+      std::vector<float>& kept = power.emplace_back(bins);
+      for (std::size_t k = 0; k < bins; ++k) kept[k] = static_cast<float>(std::norm(spectrum[k]));
+      if (power.size() == most_pieces) {
+        for (std::size_t k = 0; 2 * k < most_pieces; ++k) power[k] = std::move(power[2 * k]);
+        power.resize(most_pieces / 2);
+        stride *= 2;
+      }
+    }
+    points.clear();
+  }
+
+  [[nodiscard]] double rate_Hz() const { return kept_s > 0 ? static_cast<double>(kept_samples) / kept_s : 0; }
+};
+
+MedianSpectrum::MedianSpectrum() : parts_(std::make_unique<Parts>()) {}
+MedianSpectrum::~MedianSpectrum() = default;
+MedianSpectrum::MedianSpectrum(MedianSpectrum&&) noexcept = default;
+MedianSpectrum& MedianSpectrum::operator=(MedianSpectrum&&) noexcept = default;
+
+void MedianSpectrum::take(std::span<const double> time_s, std::span<const double> value) {
+  if (value.size() != time_s.size()) return;
+  for (std::size_t k = 0; k < value.size(); ++k) parts_->add(time_s[k], value[k]);
+}
+
+double MedianSpectrum::sample_rate_Hz() const {
+  return parts_->rate_Hz();
+}
+
+std::optional<SpectralLine> MedianSpectrum::line(double least_Hz, double most_Hz,
+                                                 std::span<const double> passed) const {
+  const auto& power = parts_->power;
+  if (power.size() < fewest_pieces) return {};
+  // Points of samples that are no whole fraction of them apart stand further or closer.
+  const double bin = parts_->rate_Hz() / (static_cast<double>(parts_->samples_of_point) * piece);
+  if (!(bin > 0)) return {};
+  std::vector<double> middle(bins), one;
+  for (std::size_t k = 0; k < bins; ++k) {
+    one.clear();
+    for (const std::vector<float>& each : power) one.push_back(each[k]);
+    middle[k] = numerics::median(one);
+  }
+  std::optional<SpectralLine> best;
+  double highest = line_over_neighbours;
+  for (std::size_t k = own_bins; k + own_bins < bins; ++k) {
+    const double frequency_Hz = static_cast<double>(k) * bin;
+    if (frequency_Hz < least_Hz || frequency_Hz > most_Hz) continue;
+    if (std::ranges::any_of(passed, [&](double other) { return std::abs(other - frequency_Hz) < near_Hz; })) continue;
+    std::vector<double> beside;
+    for (std::size_t j = k > neighbour_bins ? k - neighbour_bins : 1; j <= std::min(k + neighbour_bins, bins - 1); ++j)
+      if (j + own_bins <= k || j >= k + own_bins) beside.push_back(middle[j]);
+    const double over = middle[k] / std::max(numerics::median(beside), 1e-300);
+    if (over < highest) continue;
+    highest = over;
+    // A Hann window's peak is a parabola of the power's logarithm.
+    const double left = std::log(middle[k - 1]), here = std::log(middle[k]), right = std::log(middle[k + 1]);
+    const double curvature = left - 2 * here + right;
+    const double beside_bins = curvature < 0 ? std::clamp(0.5 * (left - right) / curvature, -0.5, 0.5) : 0;
+    best = {frequency_Hz + beside_bins * bin, 4 * std::sqrt(middle[k]) / piece};
+  }
+  return best;
+}
+
+std::vector<std::string> steady_line_findings(const SteadyLines& run, double position_noise_m) {
+  // Dither, and where sampling folds its harmonics to. It also mixes with the pump's usual ripple.
+  std::vector<double> passed;
+  for (std::size_t coil = 0; coil < run.current.size(); ++coil) {
+    const auto dither = run.current[coil].line(lowest_dither_Hz, highest_dither_Hz, {});
+    if (!dither || dither->amplitude < dither_share * run.largest_current_A[coil]) continue;
+    for (const double rate_Hz : {run.current[coil].sample_rate_Hz(), 1 / point_s}) {
+      for (int harmonic = 1; harmonic <= most_harmonics; ++harmonic) {
+        const double at_Hz = harmonic * dither->frequency_Hz;
+        passed.push_back(std::abs(at_Hz - rate_Hz * std::round(at_Hz / rate_Hz)));
+      }
+    }
+  }
+  std::vector<std::string> out;
+  if (const auto shaken = run.position.line(lowest_Hz, highest_Hz, passed);
+      shaken && shaken->amplitude > (passed.empty() ? 1 : beside_dither) * position_noise_m) {
+    out.push_back(fmt::format(
+        "position shakes at {:.1f} Hz by {:.2g} um all along: the machine's vibration, or the pump's ripple "
+        "as sampling shows it; the band knows of it what [environment] declares: vibration_g, ripple_bar",
+        shaken->frequency_Hz, units::mm_from_m(shaken->amplitude) * 1e3));
+  }
+  for (std::size_t coil = 0; coil < run.current.size(); ++coil) {
+    const double largest_A = run.largest_current_A[coil];
+    const auto beat = run.current[coil].line(lowest_Hz, highest_Hz, passed);
+    if (!beat || beat->amplitude < beat_share * largest_A || !out.empty()) continue;
+    out.push_back(fmt::format(
+        "current beats at {:.1f} Hz by {:.2g} mA all along while the position does not: its PWM is sampled at "
+        "instants; "
+        "average over a period or sample in step with it, or declare [environment] pwm_ripple_percent = {:.2g}",
+        beat->frequency_Hz, beat->amplitude * 1e3, 200 * beat->amplitude / largest_A));
+  }
+  return out;
+}
+
+}  // namespace spoolflow::plausibility

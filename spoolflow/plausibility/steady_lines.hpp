@@ -1,0 +1,56 @@
+#pragma once
+/// Steady lines in the spectrum of a run's position and coil currents, which a machine makes and a valve's work does
+/// not.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace spoolflow::plausibility {
+
+/// A line of a spectrum: amplitude in the unit of its signal.
+struct SpectralLine {
+  double frequency_Hz, amplitude;
+};
+
+/// The median spectrum of a signal over pieces of four seconds, in bounded memory: what does not go on in half of them
+/// does not show.
+class MedianSpectrum {
+ public:
+  MedianSpectrum();
+  ~MedianSpectrum();
+  MedianSpectrum(MedianSpectrum&&) noexcept;
+  MedianSpectrum& operator=(MedianSpectrum&&) noexcept;
+
+  /// The next samples of a run, as many times [s] as values; a piece with a missing value or a gap is left out. Samples
+  /// more than 4 ms apart say nothing.
+  void take(std::span<const double> time_s, std::span<const double> value);
+
+  /// The line between these frequencies [Hz] that stands highest over its neighbours, if by `line_over_neighbours` at
+  /// least. Near `passed` [Hz] none is looked for. Empty also of a run of fewer than eight pieces.
+  [[nodiscard]] std::optional<SpectralLine> line(double least_Hz, double most_Hz, std::span<const double> passed) const;
+  /// Samples a second; 0: not known.
+  [[nodiscard]] double sample_rate_Hz() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Position and currents of one run.
+struct SteadyLines {
+  MedianSpectrum position{};                  ///< [m]
+  std::array<MedianSpectrum, 2> current{};    ///< [A] of the coil, or of both
+  std::array<double, 2> largest_current_A{};  ///< of each
+};
+
+/// In words what shakes the spool, and what beats in a coil's current beside dither and what follows from it: a line of
+/// the position of `position_noise_m`, beside dither 2.5 times that, of a current of four thousandths of its largest
+/// value at least. Empty: none.
+[[nodiscard]] std::vector<std::string> steady_line_findings(const SteadyLines& run, double position_noise_m);
+
+}  // namespace spoolflow::plausibility

@@ -1,0 +1,96 @@
+/// What shakes the spool and what beats in the current, on signals of which both are known.
+#include "spoolflow/plausibility/steady_lines.hpp"
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace spoolflow::plausibility {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr double noise_m = 0.7e-6;
+
+double sine(double frequency_Hz, double time_s) {
+  return std::sin(2 * std::numbers::pi * frequency_Hz * time_s);
+}
+
+/// A valve that strokes at random with noise on position and current, and what comes to them, of `rate_Hz` for 40 s.
+SteadyLines run(double rate_Hz, const std::function<double(double)>& position_m,
+                const std::function<double(double)>& current_A) {
+  std::mt19937 engine(7);
+  std::normal_distribution<double> noise(0, 1);
+  std::vector<double> time_s, position, current;
+  double target_m = 1e-3, stroke_m = 0;
+  const auto samples = static_cast<int>(40 * rate_Hz);
+  for (int k = 0; k < samples; ++k) {
+    const double now_s = k / rate_Hz;
+    if (k % static_cast<int>(rate_Hz / 3) == 0) target_m = 1e-3 + 3e-4 * noise(engine);
+    stroke_m += (target_m - stroke_m) * 30 / rate_Hz;
+    time_s.push_back(now_s);
+    position.push_back(stroke_m + noise_m * noise(engine) + position_m(now_s));
+    current.push_back(1 + 500 * (stroke_m - 1e-3) + 1.5e-3 * noise(engine) + current_A(now_s));
+  }
+  SteadyLines out;
+  out.position.take(time_s, position);
+  out.current[0].take(time_s, current);
+  out.largest_current_A[0] = 2;
+  return out;
+}
+
+double nothing(double) {
+  return 0;
+}
+
+TEST(SteadyLines, AValveThatWorksHasNone) {
+  EXPECT_THAT(steady_line_findings(run(1000, nothing, nothing), noise_m), IsEmpty());
+}
+
+TEST(SteadyLines, AMachineThatShakesItsValveIsNamedWithFrequencyAndAmplitudeAtAnySamplingRate) {
+  for (const double rate_Hz : {500.0, 1000.0, 3000.0}) {
+    const auto shaken = [](double now_s) { return 2e-6 * sine(35.2, now_s); };
+    const SteadyLines seen = run(rate_Hz, shaken, nothing);
+    EXPECT_THAT(steady_line_findings(seen, noise_m), ElementsAre(HasSubstr("position shakes at 35.2 Hz by")))
+        << rate_Hz;
+    const auto line = seen.position.line(15, 120, {});
+    ASSERT_TRUE(line) << rate_Hz;
+    EXPECT_NEAR(line->amplitude, 2e-6, 0.4e-6) << rate_Hz;
+  }
+}
+
+TEST(SteadyLines, DitherAndWhereSamplingFoldsItsHarmonicsAreNone) {
+  const auto dither = [](double now_s) {  // a square wave: 117 Hz folds to 64, 53 and 11 Hz
+    return sine(117, now_s) > 0 ? 0.1 : -0.1;
+  };
+  const auto follows = [&](double now_s) { return 2e-5 * dither(now_s); };
+  EXPECT_THAT(steady_line_findings(run(1000, follows, dither), noise_m), IsEmpty());
+  const auto shaken = [&](double now_s) { return follows(now_s) + 5e-6 * sine(35.2, now_s); };
+  EXPECT_THAT(steady_line_findings(run(1000, shaken, dither), noise_m), ElementsAre(HasSubstr("shakes at 35.2 Hz")));
+}
+
+TEST(SteadyLines, APwmThatIsSampledAtInstantsIsNamedWithWhatToDeclare) {
+  const auto beat = [](double now_s) { return 0.04 * sine(19, now_s); };
+  EXPECT_THAT(steady_line_findings(run(1000, nothing, beat), noise_m),
+              ElementsAre(AllOf(HasSubstr("current beats at 19.0 Hz by"), HasSubstr("pwm_ripple_percent = 3.9"))));
+}
+
+TEST(SteadyLines, AMissingValueCostsItsOwnPieceAlone) {
+  const auto sometimes_missing = [](double now_s) {
+    return std::fmod(now_s, 9) < 1e-4 ? std::nan("") : 2e-6 * sine(35.2, now_s);
+  };
+  EXPECT_THAT(steady_line_findings(run(1000, sometimes_missing, nothing), noise_m),
+              ElementsAre(HasSubstr("35.2 Hz by")));
+}
+
+}  // namespace
+}  // namespace spoolflow::plausibility
