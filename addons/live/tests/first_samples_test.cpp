@@ -103,6 +103,19 @@ TEST_F(FirstSamplesTest, SayNothingOfASpoolAtRestAndForgetTheSenderOfBefore) {
   EXPECT_THAT(checks->findings(1), IsEmpty());
 }
 
+class WrongUnits : public EngineTest {};
+
+TEST_F(WrongUnits, OfAConnectionAreItsTrouble) {
+  Engine engine(site({{"t", TcpSettings{{"127.0.0.1", 0}}}}), "test");
+  engine.start();
+  const Sender sender(engine.source(0).port);
+  std::string text = "time_s,current_A,position_mm\n";  // micrometres
+  for (int k = 0; k < 4000; ++k) text += fmt::format("{:.3f},1.0,{}\n", 0.001 * k, 1000 + k % 500);
+  sender.send(text);
+  ASSERT_TRUE(comes_true([&] { return engine.source(0).trouble.find("position") != std::string::npos; }));
+  EXPECT_THAT(engine.source(0).trouble, HasSubstr("is its unit um instead?"));
+}
+
 double counted(const ValveView& view, std::string_view name) {
   for (const monitor::Indicator& one : view.indicators) {
     if (one.name == name) return one.value;

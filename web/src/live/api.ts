@@ -203,10 +203,10 @@ export function figure(value: number | null, digits: number): string {
   return value === null ? '–' : value.toFixed(digits).replace(/^-(?=[0.]*$)/, '').replace(/^-/, '−');
 }
 
-/** Whether what is known of a valve is old: no samples come, or its recording has ended. */
+/** Whether what is known of a valve is old: no samples come, none came since the start, or its recording has ended. */
 export function isOld({ source }: Valve): boolean {
   const longest_s = 5;
-  return source.stalled || (source.age_s ?? 0) > longest_s;
+  return source.stalled || (source.age_s ?? Infinity) > longest_s;
 }
 
 /** "12 s", "5 min", "3 h", "2 days". */

@@ -3,6 +3,15 @@ import { AlarmList } from './alarm_list';
 import { clock, figure, isOpen, severity, type LiveData, type Valve } from './api';
 import { element, row, setText } from './element';
 
+const sourceColumns = ['valve', 'source', 'samples/s', 'age [s]', 'dropped', 'lost', 'repeated', 'unreadable', 'connections', 'trouble'];
+const strangerColumns = ['id', 'sender', 'first', 'last', 'datagrams'];
+
+/** Each cell but the first has its column's name, which narrow screens show in front of it. */
+function named(line: HTMLTableRowElement, columns: readonly string[]): HTMLTableRowElement {
+  for (let k = 1; k < columns.length; ++k) (line.children[k] as HTMLElement).dataset['name'] = columns[k]!;
+  return line;
+}
+
 class Tile {
   readonly place = element('div', 'tile');
   private readonly value = element('b', '');
@@ -51,13 +60,12 @@ export class SiteView {
   private readonly rows = new Map<string, HTMLTableCellElement[]>();
 
   constructor() {
-    const head = element('thead', '', row('th', 'valve', 'source', 'samples/s', 'age [s]', 'dropped', 'lost', 'repeated',
-                                          'unreadable', 'connections', 'trouble'));
+    const head = element('thead', '', row('th', ...sourceColumns));
     this.place.append(element('h2', '', 'Site'), element('div', 'tiles', ...Object.values(this.tiles).map((tile) => tile.place)),
                       this.kept, this.mended, this.datagrams, element('h3', '', 'Sources'),
-                      element('div', 'wide', element('table', 'sources', head, this.sources)), this.strangers);
-    this.strangers.append(element('h3', '', 'Datagrams of valves that the site does not know'), element('div', 'wide', element('table', 'unknown', element(
-      'thead', '', row('th', 'id', 'sender', 'first', 'last', 'datagrams')), this.unknown)));
+                      element('div', 'wide', element('table', 'sources stacked', head, this.sources)), this.strangers);
+    this.strangers.append(element('h3', '', 'Datagrams of valves that the site does not know'), element('div', 'wide', element('table', 'unknown stacked', element(
+      'thead', '', row('th', ...strangerColumns)), this.unknown)));
   }
 
   show({ valves, alarms, site }: LiveData): void {
@@ -78,7 +86,7 @@ export class SiteView {
       `${udp.unknown_valve} of unknown valves, ${udp.not_allowed} not allowed`);
     this.strangers.hidden = udp.unknown.length === 0;
     this.unknown.replaceChildren(...udp.unknown.map((one) =>
-      row('td', one.valve, one.sender, clock(one.first), clock(one.last), String(one.datagrams))));
+      named(row('td', one.valve, one.sender, clock(one.first), clock(one.last), String(one.datagrams)), strangerColumns)));
     for (const valve of valves) this.showSource(valve);
   }
 
@@ -89,7 +97,7 @@ export class SiteView {
       link.href = `#/valve/${encodeURIComponent(valve.id)}`;
       cells = Array.from({ length: 9 }, () => element('td', ''));
       this.rows.set(valve.id, cells);
-      this.sources.append(element('tr', '', element('td', '', link), ...cells));
+      this.sources.append(named(element('tr', '', element('td', '', link), ...cells), sourceColumns));
     }
     const of = valve.source;
     const texts = [of.port === undefined ? of.kind : `${of.kind} :${of.port}`, figure(this.rates.of(valve), 0),

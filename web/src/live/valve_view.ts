@@ -52,7 +52,7 @@ export class ValveView {
   constructor(private readonly id: string) {
     this.alarms = new AlarmList((alarm) => alarm.valve === id && alarm.state !== 'cleared');
     this.days = new HistoryView(id);
-    const table = (body: HTMLElement): HTMLElement => element('div', 'wide', element('table', 'indicators', element(
+    const table = (body: HTMLElement): HTMLElement => element('div', 'wide', element('table', 'indicators stacked', element(
       'thead', '', row('th', 'indicator', 'value', '± (95 %)', 'baseline', 'alarm beyond', 'unit', 'state', 'trend')), body));
     this.place.append(element('h2', '', id, ' ', this.sign), this.figures, this.status, this.causes, this.findings, this.alarms.place, this.stale, this.age,
                       this.plot.canvas, element('h3', '', 'Indicators'),
