@@ -56,7 +56,8 @@ struct FirstSamples::Parts {
 
   [[nodiscard]] std::unique_ptr<GatheredSamples> begun(std::size_t valve) const {
     const ValveSettings& settings = site.valves[valve];
-    return std::make_unique<GatheredSamples>(settings.id, settings.model.model->valve.stroke_m);
+    return std::make_unique<GatheredSamples>(settings.id, settings.model.model->valve.stroke_m,
+                                             std::holds_alternative<UdpSettings>(settings.source));
   }
   [[nodiscard]] std::vector<std::string> findings_of(const Task& task) {
     task.gathered->finish();

@@ -64,6 +64,12 @@ bool GatheredSamples::checked(Check&& check) {
     return true;
   } catch (const recording::RecordingError& error) {
     implausible_ = error.what();
+    const std::size_t guess = implausible_.find("; is its unit ");
+    if (!in_SI_ && guess != std::string::npos) {
+      // The guess is of a number in SI, which is none that the sender wrote.
+      implausible_.resize(guess);
+      implausible_ += "; is its column in the unit that the header or channel map states?";
+    }
     return false;
   }
 }

@@ -20,7 +20,9 @@ class GatheredSamples {
   static constexpr std::size_t rows_together = 200;  ///< looked at together
   static constexpr std::size_t channels = 7;
 
-  GatheredSamples(std::string valve, double stroke_m) : valve_(std::move(valve)), stroke_m_(stroke_m) {}
+  /// `in_SI`: the sender has no other units, as datagrams have none.
+  GatheredSamples(std::string valve, double stroke_m, bool in_SI)
+      : valve_(std::move(valve)), stroke_m_(stroke_m), in_SI_(in_SI) {}
   GatheredSamples(const GatheredSamples&) = delete;
   GatheredSamples& operator=(const GatheredSamples&) = delete;
 
@@ -49,6 +51,7 @@ class GatheredSamples {
 
   std::string valve_;
   double stroke_m_;
+  bool in_SI_;
   std::array<std::vector<double>, channels> columns_{};
   std::vector<recording::BoundColumn> bound_{};
   std::optional<recording::Plausibility> units_{};

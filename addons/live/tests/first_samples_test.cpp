@@ -105,15 +105,16 @@ TEST_F(FirstSamplesTest, SayNothingOfASpoolAtRestAndForgetTheSenderOfBefore) {
 
 class WrongUnits : public EngineTest {};
 
-TEST_F(WrongUnits, OfAConnectionAreItsTrouble) {
+TEST_F(WrongUnits, OfAConnectionAreAskedForInItsOwnTerms) {
   Engine engine(site({{"t", TcpSettings{{"127.0.0.1", 0}}}}), "test");
   engine.start();
   const Sender sender(engine.source(0).port);
   std::string text = "time_s,current_A,position_mm\n";  // micrometres
-  for (int k = 0; k < 4000; ++k) text += fmt::format("{:.3f},1.0,{}\n", 0.001 * k, 1000 + k % 500);
+  for (int k = 0; k < 8000; ++k) text += fmt::format("{:.3f},1.0,{}\n", 0.001 * k, 1000 + k % 500);
   sender.send(text);
-  ASSERT_TRUE(comes_true([&] { return engine.source(0).trouble.find("position") != std::string::npos; }));
-  EXPECT_THAT(engine.source(0).trouble, HasSubstr("is its unit um instead?"));
+  ASSERT_TRUE(comes_true([&] { return !engine.source(0).findings.empty(); }));
+  EXPECT_THAT(engine.source(0).findings[0], AllOf(HasSubstr("position is 1.499 m, beyond"),
+                                                  HasSubstr("in the unit that the header or channel map states?")));
 }
 
 double counted(const ValveView& view, std::string_view name) {
