@@ -1,5 +1,6 @@
 #!/bin/sh
-# wheel.sh PYTHON SOURCE BUILD MODEL: makes a wheel of what is built, installs it where nothing else is, and uses it.
+# wheel.sh PYTHON SOURCE BUILD MODEL: makes a wheel of what is built, installs it where nothing else is, and uses it. With SPOOLFLOW_PORTABLE=1
+# one that holds the libraries that it needs.
 set -eu
 python=$1 source=$2 build=$3 model=$4
 folder=$(mktemp -d)
@@ -12,9 +13,9 @@ if "$python" -c 'import build' 2>/dev/null; then
 else
   echo "python3-build is not installed: the wheel is made without it"
   mkdir made
-  (cd "$source/python" && SPOOLFLOW_BUILD=$build "$python" -B -c "import wheel_backend, sys; wheel_backend.build_wheel(sys.argv[1])" "$folder/made" >"$folder/build.log")
+  (cd "$source/addons/python/package" && SPOOLFLOW_BUILD=$build "$python" -B -c "import wheel_backend, sys; wheel_backend.build_wheel(sys.argv[1])" "$folder/made" >"$folder/build.log")
 fi
-wheel=$(ls made/spoolflow-*-cp3*-linux_*.whl)
+wheel=$(ls made/spoolflow-*-cp3*linux_*.whl)
 "$python" - "$wheel" site <<'PYTHON'
 import base64, csv, hashlib, sys, zipfile
 with zipfile.ZipFile(sys.argv[1]) as wheel:
@@ -26,8 +27,4 @@ with zipfile.ZipFile(sys.argv[1]) as wheel:
         assert name == record or digest == f"sha256={content}", name
     wheel.extractall(sys.argv[2])
 PYTHON
-PYTHONPATH=site "$python" -B -c "
-import importlib.metadata, spoolflow, sys
-assert spoolflow.__file__.startswith('$folder/site')
-assert importlib.metadata.version('spoolflow') == spoolflow.__version__
-print(spoolflow.load_model(sys.argv[1]).estimate(time_s=[0], current_A=[0], position_m=[0]))" "$model"
+"$source/addons/python/tests/installed.sh" "$python" "$folder/$wheel" "$model"
