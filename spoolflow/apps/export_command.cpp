@@ -296,8 +296,7 @@ void add_export_command(CLI::App& program) {
         "spoolflow export c valve_a.json --target cortex-m4f -o valve_a_c",
         "spoolflow export parameters valve_a.json -o valve.bin", "spoolflow export st valve_a.json -o valve.st"}});
   command
-      ->add_option("kind", arguments->kind,
-                   "fmu, ssp: simulation; cpp, c: firmware; parameters: a flash page; st: PLC")
+      ->add_option("kind", arguments->kind, "fmu, ssp: simulation; cpp, c: firmware; parameters: a flash page; st: PLC")
       ->required()
       ->check(CLI::IsMember({"fmu", "ssp", "cpp", "c", "parameters", "st"}));
   command->add_option("model", arguments->model, "model file; for fmu also a virtual valve")->required();

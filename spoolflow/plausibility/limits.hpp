@@ -46,7 +46,8 @@ inline constexpr double most_zero_share = 0.5;          ///< of what flows leave
 inline constexpr double most_zero_residual = 0.05;      ///< of the RMS of the flows, with it
 inline constexpr double line_over_neighbours = 10;      ///< power of a spectrum's line; sound runs have 2, short ones 6
 inline constexpr double beside_dither = 2.5;            ///< of the position's noise; without dither a line of 1 shows
-inline constexpr double beat_share = 4e-3;              ///< of the largest current; dither and the pump mix to 2.5e-3
+inline constexpr double beat_share = 1e-3;              ///< of the largest current
+inline constexpr double beat_beside_dither = 4e-3;      ///< the same; dither and the pump mix to 2.5e-3
 inline constexpr double surely = 1.5;                   ///< times a limit: no valve does that
 inline constexpr double impossible = 10;
 

@@ -183,7 +183,8 @@ std::vector<std::string> steady_line_findings(const SteadyLines& run, double pos
   for (std::size_t coil = 0; coil < run.current.size(); ++coil) {
     const double largest_A = run.largest_current_A[coil];
     const auto beat = run.current[coil].line(lowest_Hz, highest_Hz, passed);
-    if (!beat || beat->amplitude < beat_share * largest_A || !out.empty()) continue;
+    if (!beat || beat->amplitude < (passed.empty() ? beat_share : beat_beside_dither) * largest_A || !out.empty())
+      continue;
     out.push_back(fmt::format(
         "current beats at {:.1f} Hz by {:.2g} mA all along while the position does not: its PWM is sampled at "
         "instants; "

@@ -49,8 +49,8 @@ struct SteadyLines {
 };
 
 /// In words what shakes the spool, and what beats in a coil's current beside dither and what follows from it: a line of
-/// the position of `position_noise_m`, beside dither 2.5 times that, of a current of four thousandths of its largest
-/// value at least. Empty: none.
+/// the position of `position_noise_m`, beside dither 2.5 times that, of a current of a thousandth of its largest
+/// value at least, beside dither of four. Empty: none.
 [[nodiscard]] std::vector<std::string> steady_line_findings(const SteadyLines& run, double position_noise_m);
 
 }  // namespace spoolflow::plausibility

@@ -48,9 +48,7 @@ SteadyLines run(double rate_Hz, const std::function<double(double)>& position_m,
   return out;
 }
 
-double nothing(double) {
-  return 0;
-}
+const std::function<double(double)> nothing = [](double) { return 0.0; };
 
 TEST(SteadyLines, AValveThatWorksHasNone) {
   EXPECT_THAT(steady_line_findings(run(1000, nothing, nothing), noise_m), IsEmpty());
