@@ -48,16 +48,16 @@ SteadyLines run(double rate_Hz, const std::function<double(double)>& position_m,
   return out;
 }
 
-const std::function<double(double)> nothing = [](double) { return 0.0; };
+const std::function<double(double)> no_line = [](double) { return 0.0; };
 
 TEST(SteadyLines, AValveThatWorksHasNone) {
-  EXPECT_THAT(steady_line_findings(run(1000, nothing, nothing), noise_m), IsEmpty());
+  EXPECT_THAT(steady_line_findings(run(1000, no_line, no_line), noise_m), IsEmpty());
 }
 
 TEST(SteadyLines, AMachineThatShakesItsValveIsNamedWithFrequencyAndAmplitudeAtAnySamplingRate) {
   for (const double rate_Hz : {500.0, 1000.0, 3000.0}) {
     const auto shaken = [](double now_s) { return 2e-6 * sine(35.2, now_s); };
-    const SteadyLines seen = run(rate_Hz, shaken, nothing);
+    const SteadyLines seen = run(rate_Hz, shaken, no_line);
     EXPECT_THAT(steady_line_findings(seen, noise_m), ElementsAre(HasSubstr("position shakes at 35.2 Hz by")))
         << rate_Hz;
     const auto line = seen.position.line(15, 120, {});
@@ -78,7 +78,7 @@ TEST(SteadyLines, DitherAndWhereSamplingFoldsItsHarmonicsAreNone) {
 
 TEST(SteadyLines, APwmThatIsSampledAtInstantsIsNamedWithWhatToDeclare) {
   const auto beat = [](double now_s) { return 0.04 * sine(19, now_s); };
-  EXPECT_THAT(steady_line_findings(run(1000, nothing, beat), noise_m),
+  EXPECT_THAT(steady_line_findings(run(1000, no_line, beat), noise_m),
               ElementsAre(AllOf(HasSubstr("current beats at 19.0 Hz by"), HasSubstr("pwm_ripple_percent = 3.9"))));
 }
 
@@ -86,7 +86,7 @@ TEST(SteadyLines, AMissingValueCostsItsOwnPieceAlone) {
   const auto sometimes_missing = [](double now_s) {
     return std::fmod(now_s, 9) < 1e-4 ? std::nan("") : 2e-6 * sine(35.2, now_s);
   };
-  EXPECT_THAT(steady_line_findings(run(1000, sometimes_missing, nothing), noise_m),
+  EXPECT_THAT(steady_line_findings(run(1000, sometimes_missing, no_line), noise_m),
               ElementsAre(HasSubstr("35.2 Hz by")));
 }
 
