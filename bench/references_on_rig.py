@@ -51,24 +51,36 @@ def columns(path, *names):
         return list(zip(*([float(row[k]) for k in at] for row in rows)))
 
 
-def make(spoolflow, out, seed, quality):
-    folder = out / f"{seed}"
-    folder.mkdir(parents=True, exist_ok=True)
-    base = f'preset = "size_6"\n[spread]\namount = 1\nseed = {seed}\n'
-    if not (folder / "model.json").exists():
-        (folder / "fresh.toml").write_text(base)
-        (folder / "worn.toml").write_text(base + WORN)
-        must(spoolflow, "campaign", folder / "fresh.toml", "-o", folder / "campaign", "--calibration-only", "-q")
-        must(spoolflow, "calibrate", folder / "campaign" / "campaign.toml", "-o", folder / "model.json", "-q")
-        must(spoolflow, "campaign", folder / "worn.toml", "-o", folder / "worn_campaign", "--calibration-only", "-q")
-        must(spoolflow, "calibrate", folder / "worn_campaign" / "campaign.toml", "-o", folder / "worn_model.json", "-q")
+def base_of(seed):
+    return f'preset = "size_6"\n[spread]\namount = 1\nseed = {seed}\n'
+
+
+def calibrate(spoolflow, folder, quality, model):
+    """The valve of a quality on its bench."""
+    if not (folder / model).exists():
+        must(spoolflow, "campaign", folder / f"{quality}.toml", "-o", folder / f"{quality}_campaign", "--calibration-only", "-q")
+        must(spoolflow, "calibrate", folder / f"{quality}_campaign" / "campaign.toml", "-o", folder / model, "-q")
+
+
+def record(spoolflow, folder, seed, quality, month=0, judging=True):
+    """Strokes and the closed valve, of each month others, and the runs that judge, always the same."""
     for number, (name, (protocol, run)) in enumerate({"strokes": STROKES, **JUDGED, "closed": CLOSED}.items()):
         file = folder / f"{quality}_{name}.csv"
-        if file.exists():
+        if file.exists() or (name in JUDGED and not judging):
             continue
         scenario = folder / f"{quality}_{name}.toml"
-        scenario.write_text(f'protocol = "{protocol}"\nvalve = "{quality}.toml"\nseed = {seed * 10 + number}\n[run]\n{run}')
+        scenario.write_text(f'protocol = "{protocol}"\nvalve = "{quality}.toml"\nseed = {seed * 10 + number + (0 if name in JUDGED else 1000 * month)}\n[run]\n{run}')
         must(spoolflow, "simulate", scenario, "-o", file, "--truth", folder / f"{quality}_{name}.truth.csv", "-q")
+
+
+def make(spoolflow, out, seed):
+    folder = out / f"{seed}"
+    folder.mkdir(parents=True, exist_ok=True)
+    for quality, wear, model in (("fresh", "", "model.json"), ("worn", WORN, "worn_model.json")):
+        if not (folder / f"{quality}.toml").exists():
+            (folder / f"{quality}.toml").write_text(base_of(seed) + wear)
+        calibrate(spoolflow, folder, quality, model)
+        record(spoolflow, folder, seed, quality)
 
 
 def flows(folder, run):
@@ -130,9 +142,7 @@ def main(arguments):
         sys.exit("references_on_rig.py OUT [--tuning] [--spoolflow PROGRAM]")
     out = pathlib.Path(places[0]) / which
     for seed in SETS[which]:
-        for quality in ("fresh", "worn"):
-            make(spoolflow, out, seed, quality)
-    for seed in SETS[which]:
+        make(spoolflow, out, seed)
         folder = out / f"{seed}"
         for quality in ("fresh", "worn"):
             before = {run: judged(spoolflow, folder, folder / "model.json", f"{quality}_{run}") for run in JUDGED}

@@ -19,6 +19,7 @@
 #include "spoolflow/apps/work/corrected_model.hpp"
 #include "spoolflow/apps/work/monitored_recording.hpp"
 #include "spoolflow/apps/work/type_note.hpp"
+#include "spoolflow/monitor/adaptation.hpp"
 #include "spoolflow/report/json/monitor_json.hpp"
 #include "spoolflow/report/monitor/monitor_report.hpp"
 
@@ -37,7 +38,7 @@ void write_corrected(std::ostream& out, const MonitorArguments& arguments, Monit
   model::write_model(out, corrected_model(from, watch));
 }
 
-void print_condition(const monitor::Monitor& watch) {
+void print_condition(const monitor::Monitor& watch, const model::Provenance& provenance) {
   print("NE 107: {}\n", monitor::name(watch.condition()));
   for (const monitor::Cause& cause : watch.causes())
     print("{:<20} odds {:.3g} to 1\n", monitor::name(cause.fault), cause.odds);
@@ -46,6 +47,7 @@ void print_condition(const monitor::Monitor& watch) {
     print("{:<32} {:>12.5g} {:>12.3g} {:>12.5g} {:<4} {}\n", each.name, each.value, each.uncertainty_95, each.baseline,
           each.unit, monitor::name(each.state));
   }
+  if (const auto drift = monitor::wear_drift(provenance)) print("\ndrift {}\n", monitor::text_of(*drift));
 }
 
 void refuse_other_kinds(const MonitorArguments& arguments) {
@@ -113,7 +115,8 @@ void monitor_recordings(const MonitorArguments& arguments) {
   if (page) report::write_monitor_report(page->stream(), model, watch, runs, trend, units);
   if (json) report::write_monitor_json(json->stream(), model, watch, runs, band.figures());
   commit_together({page ? &*page : nullptr, json ? &*json : nullptr, corrected ? &*corrected : nullptr});
-  if (arguments.json != "-" && arguments.report != "-" && arguments.adapt != "-") print_condition(watch);
+  if (arguments.json != "-" && arguments.report != "-" && arguments.adapt != "-")
+    print_condition(watch, model.provenance);
 }
 
 void add_monitor_command(CLI::App& program) {

@@ -14,6 +14,7 @@
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/apps/work/readable_model.hpp"
 #include "spoolflow/calibration/references/recalibrate.hpp"
+#include "spoolflow/monitor/adaptation.hpp"
 #include "spoolflow/recording/reader.hpp"
 
 namespace spoolflow::apps {
@@ -54,6 +55,7 @@ void print_findings(const calibration::RecalibratedValve& valve) {
     say("{:>5} {:>+10.1f} % {:>+8.0f} % {:>+12.1f} um\n", k, percent * states[k].edge_width,
         percent * (states[k].friction_ratio - 1), um_per_m * states[k].position_zero_m);
   }
+  if (const auto drift = monitor::wear_drift(valve.model.provenance)) say("\ndrift {}\n", monitor::text_of(*drift));
 }
 
 model::Adaptation how_from(const RecalibrateArguments& arguments) {

@@ -1,10 +1,13 @@
 #include "spoolflow/monitor/adaptation.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <ctime>
 
 #include <fmt/format.h>
 
 #include "spoolflow/model/model_limits.hpp"
+#include "spoolflow/sensor/machine_reference.hpp"
 
 namespace spoolflow::monitor {
 namespace {
@@ -88,6 +91,38 @@ std::string left_over(const model::Model& model, const Findings& findings) {
       "{}; {}", none ? "no fault explains what is raised" : "what is raised is none of what can be corrected", remedy);
 }
 
+constexpr double day_s = 86400, month_s = 30 * day_s, deviations_95 = 2, percent = 100, um_per_m = 1e6;
+/// What a state is known to where its own uncertainty says less: of a healthy model, one standard deviation; and what
+/// may be hidden of a quantity that references left as it was.
+constexpr double least_width = sensor::ReferencePriors::model_volume_share / sensor::ReferencePriors::volume_per_width,
+                 least_friction = 0.05, hidden_width = 0.03, hidden_friction = 0.1, hidden_zero_m = 5e-6;
+
+bool moved(const model::Adaptation& look, std::string_view quantity) {
+  return std::ranges::any_of(look.corrections, [&](const model::Correction& each) { return each.of == quantity; });
+}
+
+/// A state of one quantity at a time, one standard deviation.
+struct Look {
+  double time_s, value, deviation;
+};
+
+WearRate slope_of(const std::vector<Look>& looks) {
+  double sum = 0, time = 0, value = 0;
+  for (const Look& each : looks) {
+    const double weight = 1 / (each.deviation * each.deviation);
+    sum += weight;
+    time += weight * each.time_s;
+    value += weight * each.value;
+  }
+  double spread = 0, along = 0;
+  for (const Look& each : looks) {
+    const double weight = 1 / (each.deviation * each.deviation), off_s = each.time_s - time / sum;
+    spread += weight * off_s * off_s;
+    along += weight * off_s * (each.value - value / sum);
+  }
+  return {month_s * along / spread, month_s * deviations_95 / std::sqrt(spread)};
+}
+
 }  // namespace
 
 model::Model adapted(const model::Model& model, const Findings& findings, model::Adaptation how) {
@@ -119,6 +154,51 @@ model::Model adapted(const model::Model& model, const Findings& findings, model:
   out.provenance.adaptations.push_back(std::move(how));
   model::require_limits(out, "the corrected model of " + model.valve.name);
   return out;
+}
+
+std::optional<double> seconds_of(const std::string& utc) {
+  std::tm time{};
+  const char* const end = strptime(utc.c_str(), "%Y-%m-%dT%H:%M:%SZ", &time);
+  if (end == nullptr || *end != '\0') return {};
+  return static_cast<double>(timegm(&time));
+}
+
+std::optional<WearDrift> wear_drift(const model::Provenance& provenance) {
+  const std::optional<double> calibrated_s = seconds_of(provenance.created);
+  if (!calibrated_s) return {};
+  std::vector<Look> width{{*calibrated_s, 0, least_width}}, friction{{*calibrated_s, 0, least_friction}},
+      zero{{*calibrated_s, 0, sensor::ReferencePriors::closed_uncertainty_m}};
+  double last_s = *calibrated_s;
+  for (const model::Adaptation& each : provenance.adaptations) {
+    const std::optional<double> time_s = seconds_of(each.created);
+    if (!each.wear || !time_s) continue;
+    const model::WearState& wear = *each.wear;
+    const auto known = [&](std::string_view of, double least, double hidden) {
+      return moved(each, of) ? least : std::hypot(least, hidden);
+    };
+    width.push_back(
+        {*time_s, wear.edge_width,
+         known("edge width", std::max(least_width, wear.flow_share / sensor::ReferencePriors::volume_per_width),
+               hidden_width)});
+    friction.push_back({*time_s, wear.friction_ratio - 1,
+                        wear.friction_ratio *
+                            known("friction ratio", std::max(least_friction, wear.friction_share), hidden_friction)});
+    zero.push_back({*time_s, wear.position_zero_m,
+                    known("position zero", sensor::ReferencePriors::closed_uncertainty_m, hidden_zero_m)});
+    last_s = std::max(last_s, *time_s);
+  }
+  if (last_s - *calibrated_s < day_s) return {};
+  return WearDrift{slope_of(width), slope_of(friction), slope_of(zero), width.size() - 1,
+                   (last_s - *calibrated_s) / day_s};
+}
+
+std::string text_of(const WearDrift& drift) {
+  const auto rate = [](const WearRate& of, double scale, const char* unit) {
+    return fmt::format("{:+.2g} +- {:.2g} {}", scale * of.value, scale * of.uncertainty_95, unit);
+  };
+  return fmt::format("in 30 days: edge width {}, friction {}, position zero {} ({} looks in {:.0f} days)",
+                     rate(drift.edge_width, percent, "%"), rate(drift.friction, percent, "%"),
+                     rate(drift.position_zero_m, um_per_m, "um"), drift.looks, drift.days);
 }
 
 }  // namespace spoolflow::monitor

@@ -2,7 +2,12 @@
 /// Corrects the model by what the indicators have identified: on request only, within limits, and recorded in the
 /// model's provenance. The model that it was corrected from stays as it is: going back is to use that.
 ///
+/// Beside it how fast references move a model: the rate of wear with its band, and no remaining useful life.
+///
 ///     model::Model corrected = monitor::adapted(model, watch.findings(), {.tool_version = …, .created = …, …});
+#include <optional>
+#include <string>
+
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/monitor/correction.hpp"
 #include "spoolflow/monitor/isolation.hpp"
@@ -37,5 +42,28 @@ inline constexpr double identified_friction_share = 0.08;
 /// was raised, where what was raised is none of what can be corrected, or where a correction passes its limit; the
 /// model's own name, the figure, the limit and the remedy are named.
 [[nodiscard]] model::Model adapted(const model::Model& model, const Findings& findings, model::Adaptation how);
+
+/// By the month of 30 days, each with its half width at 95 %.
+struct WearRate {
+  double value, uncertainty_95;
+};
+
+struct WearDrift {
+  WearRate edge_width;       ///< conductance and flow force, as a share of the calibrated
+  WearRate friction;         ///< as a share of the calibrated
+  WearRate position_zero_m;  ///< of the sensor's reading
+  std::size_t looks;         ///< of references, at which the model moved or stayed
+  double days;               ///< from calibration to the last of them
+};
+
+/// A line through the model as calibrated and each state since, weighted by how well each is known. Nothing where
+/// references never looked at the valve, or all within a day.
+[[nodiscard]] std::optional<WearDrift> wear_drift(const model::Provenance& provenance);
+
+/// "in 30 days: edge width +0.4 +- 0.9 %, …"
+[[nodiscard]] std::string text_of(const WearDrift& drift);
+
+/// Seconds since 1970 of "2026-01-02T03:04:05Z"; nothing where the text is none such.
+[[nodiscard]] std::optional<double> seconds_of(const std::string& utc);
 
 }  // namespace spoolflow::monitor

@@ -8,13 +8,13 @@
 namespace spoolflow::calibration {
 namespace {
 
-constexpr double degrees_of_freedom = 4;
+constexpr double reference_freedom = sensor::ReferencePriors::freedom;
 constexpr int rounds = 20;
 constexpr double per_median_distance = 1.4826;  // standard deviation of a normal
 
 /// Of a residual in a weighted sum of squares that has the same slope.
 double weight_of(double deviations) {
-  return (degrees_of_freedom + 1) / (degrees_of_freedom + deviations * deviations);
+  return (reference_freedom + 1) / (reference_freedom + deviations * deviations);
 }
 
 std::vector<OilRatio> used_of(const std::vector<OilRatio>& ratios, std::size_t reference) {
@@ -75,15 +75,16 @@ std::vector<OilRatio> oil_ratios(const std::vector<PassedOil>& oil, const std::v
   for (std::size_t k = 0; k < oil.size(); ++k) {
     const double volume_m3 = oil[k].volume_m3, seconds_per_m3 = (oil[k].end_s - oil[k].begin_s) / volume_m3;
     const bool used = sensor_m3[k] > least_seen_share * volume_m3;
-    const double deviation = std::hypot(oil[k].uncertainty_m3 / volume_m3, interval_share,
-                                        interval_flow_share * rated_flow_m3_per_s * seconds_per_m3);
+    const double deviation =
+        std::hypot(oil[k].uncertainty_m3 / volume_m3, sensor::ReferencePriors::volume_chance_share,
+                   sensor::ReferencePriors::volume_chance_flow_share * rated_flow_m3_per_s * seconds_per_m3);
     out.push_back({oil[k].reference, used ? std::log(volume_m3 / sensor_m3[k]) : 0, deviation, seconds_per_m3, used});
   }
   return out;
 }
 
 double interval_loss(double deviations) {
-  return 0.5 * (degrees_of_freedom + 1) * std::log1p(deviations * deviations / degrees_of_freedom);
+  return 0.5 * (reference_freedom + 1) * std::log1p(deviations * deviations / reference_freedom);
 }
 
 OilLevel level_of(const std::vector<OilRatio>& ratios, std::size_t reference) {
@@ -102,7 +103,8 @@ OilLeak leak_of(const std::vector<OilRatio>& ratios, std::size_t reference) {
 }
 
 void leave_out_apart(std::vector<OilRatio>& ratios) {
-  constexpr double least = 0.08, times = 4;
+  constexpr double least = sensor::ReferencePriors::least_apart_share,
+                   times = sensor::ReferencePriors::apart_deviations;
   std::size_t references = 0;
   for (const OilRatio& each : ratios) references = std::max(references, each.reference + 1);
   for (std::size_t r = 0; r < references; ++r) {

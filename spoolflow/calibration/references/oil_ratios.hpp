@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "spoolflow/calibration/references/passed_oil.hpp"
+#include "spoolflow/sensor/machine_reference.hpp"
 
 namespace spoolflow::calibration {
 
@@ -16,10 +17,8 @@ struct OilRatio {
   bool used;
 };
 
-/// What the sensor's volume of an interval is off by, by chance: a share of it, and a share of the rated flow.
-inline constexpr double interval_share = 0.015, interval_flow_share = 0.005;
-/// A reference's intervals in which the sensor saw less than this share of its oil pass are of the other direction.
-inline constexpr double least_seen_share = 0.3;
+/// Less of a reference's oil is of the other direction.
+inline constexpr double least_seen_share = sensor::ReferencePriors::least_seen_share;
 
 [[nodiscard]] std::vector<OilRatio> oil_ratios(const std::vector<PassedOil>& oil, const std::vector<double>& sensor_m3,
                                                double rated_flow_m3_per_s);

@@ -49,7 +49,7 @@ Change of_measured(double value, double deviation, double usual) {
 /// The same view with the edges so wide that the sensor's volumes are those of the references; wear does not narrow
 /// them.
 WearView with_asked_edges(const MachineEvidence& evidence, WearView view, const std::vector<bool>& used) {
-  constexpr double width_per_volume = 2, most = 0.2;
+  constexpr double width_per_volume = 1 / sensor::ReferencePriors::volume_per_width, most = 0.2;
   const double asked = std::clamp(width_per_volume * agreement_of(evidence, view).log_ratio, 0.0, most);
   return asked > 0 ? seen_with(evidence, with_edge(view.wear, asked), used) : view;
 }

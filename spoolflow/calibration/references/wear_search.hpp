@@ -6,20 +6,22 @@
 #include "spoolflow/calibration/references/oil_ratios.hpp"
 #include "spoolflow/calibration/references/sensor_view.hpp"
 #include "spoolflow/calibration/references/wear.hpp"
+#include "spoolflow/sensor/machine_reference.hpp"
 
 namespace spoolflow::calibration {
 
-/// One standard deviation of what wear changes between two looks at a valve.
-inline constexpr double edge_wear = 0.06, friction_wear = 0.25, position_zero_wear_m = 15e-6;
-/// Of a healthy valve's model: what its volumes all have in common, its friction in operation, and where its sensor
-/// reads closed.
-inline constexpr double model_volume_share = 0.01, model_friction_share = 0.05, closed_uncertainty_m = 4e-6;
+/// As the valve itself takes references.
+using Priors = sensor::ReferencePriors;
+inline constexpr double edge_wear = Priors::edge_wear, position_zero_wear_m = Priors::position_zero_wear_m,
+                        model_volume_share = Priors::model_volume_share,
+                        closed_uncertainty_m = Priors::closed_uncertainty_m, most_left_out = Priors::most_left_out;
+/// One standard deviation of what wear changes of friction between two looks at a valve, and of a healthy valve's
+/// model.
+inline constexpr double friction_wear = 0.25, model_friction_share = 0.05;
 /// Innovations so far apart count as independent.
 inline constexpr double innovation_memory_s = 0.05;
 /// A change is taken where it is so many times as likely as none, in natural logarithms, its prior width counted.
 inline constexpr double change_evidence = 1.6;
-/// Of a reference's intervals, the share that may contradict the others.
-inline constexpr double most_left_out = 0.4;
 inline constexpr double percent = 100;  ///< a share of 1
 
 /// What is looked at. Keeps model, recordings and references by reference.

@@ -54,8 +54,11 @@ struct ImageHeader {
   char direction[8];              ///< "b": flow P to B; "a": flow P to A; "both": the whole valve
   char tool_version[24];          ///< that wrote the image
   ImageTable tables[image_tables];
-  std::uint32_t spare[11];  ///< 0
-  std::uint32_t crc32;      ///< of all other bytes, the header's before those behind it
+  float adapted_edge_width;       ///< by which it was moved in the valve since it was exported (moved_page.hpp)
+  float adapted_position_zero_m;  ///< the same of the position sensor's zero
+  std::uint32_t adaptations;      ///< how often; 0 as exported
+  std::uint32_t spare[8];         ///< 0
+  std::uint32_t crc32;            ///< of all other bytes, the header's before those behind it
 };
 
 inline constexpr std::uint32_t image_header_bytes = 256;

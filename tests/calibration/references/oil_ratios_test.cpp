@@ -27,7 +27,7 @@ std::vector<OilRatio> strokes(double share, double leak_m3_per_s) {
 TEST(OilRatios, AllStrokesTogetherKnowTheShareBetterThanOneOfThem) {
   const OilLevel level = level_of(strokes(0.95, 0), 0);
   EXPECT_NEAR(level.log_ratio, -std::log(0.95), 0.002);
-  EXPECT_LT(level.deviation, 0.5 * interval_share);
+  EXPECT_LT(level.deviation, 0.5 * sensor::ReferencePriors::volume_chance_share);
   EXPECT_EQ(level.count, 20U);
 }
 
