@@ -1,13 +1,12 @@
 #include "spoolflow/analysis/study.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <mutex>
 #include <sstream>
 
 #include <fmt/format.h>
 
+#include "spoolflow/analysis/study_ledger.hpp"
 #include "spoolflow/analysis/virtual_model.hpp"
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/estimation/recordings/sensor_channels.hpp"
@@ -52,13 +51,8 @@ std::string everything(const model::Model& given, const Scenario& scenario, cons
                        const std::string& identity) {
   std::ostringstream out;
   out << identity << ' ' << scenario.seed << ' ' << scenario.study.given_model << '\n';
-  const auto write = [&](std::string_view path, const rig::Parameter&, const double& value) {
-    out << path << fmt::format(" {:a}\n", value);
-  };
-  rig::for_each_parameter(scenario.study, write);
-  rig::for_each_parameter(valve.plant, write);
-  rig::for_each_parameter(valve.electronics, write);
-  rig::for_each_parameter(valve.instruments, write);
+  out << exact_text(scenario.study) << exact_text(valve.plant) << exact_text(valve.electronics)
+      << exact_text(valve.instruments);
   if (scenario.study.given_model) model::write_model(out, given);
   return out.str();
 }
@@ -103,36 +97,6 @@ RunErrors run_errors(const model::Model& model, const rig::Simulation& run) {
   }
   return out;
 }
-
-/// Keeps finished runs, counts them and saves them now and then.
-class Ledger {
- public:
-  Ledger(FinishedRuns& runs, std::uint64_t fingerprint, const StudyWork& work, std::function<void(double)> progress)
-      : runs_(runs), fingerprint_(fingerprint), work_(work), progress_(std::move(progress)) {
-    for (const auto& run : runs_) open_ += run ? 0 : 1;
-  }
-  void finished(std::size_t index, const RunErrors& errors) {
-    const std::lock_guard lock(mutex_);
-    runs_[index] = errors;
-    ++done_;
-    const Clock::time_point now = Clock::now();
-    if (std::chrono::duration<double>(now - saved_).count() >= work_.saving_interval_s) {
-      saved_ = now;
-      work_.save(study_state(fingerprint_, runs_));
-    }
-    progress_(static_cast<double>(done_) / static_cast<double>(open_));
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  FinishedRuns& runs_;
-  std::uint64_t fingerprint_;
-  const StudyWork& work_;
-  std::function<void(double)> progress_;
-  std::mutex mutex_;
-  Clock::time_point saved_ = Clock::now();
-  std::size_t done_ = 0, open_ = 0;
-};
 
 }  // namespace
 
@@ -206,21 +170,23 @@ Study global_study(const model::Model& given, const Scenario& scenario, const ri
                 : std::string();
   const model::Model model = own_model ? model::parse_model(text, "the virtual valve's model") : given;
   const double before = own_model ? calibrating_share : 0;
-  Ledger ledger(runs, study.fingerprint(), work,
-                [&](double share) { work.progress("simulating the series", before + (1 - before) * share); });
   std::vector<std::size_t> open;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     if (!runs[k]) open.push_back(k);
   }
+  Ledger ledger(
+      open.size(), work, [&] { return study_state(study.fingerprint(), runs); },
+      [&](double share) { work.progress("simulating the series", before + (1 - before) * share); });
+  const auto keep = [&](std::size_t k, const RunErrors& errors) { ledger.finished([&] { runs[k] = errors; }); };
   if (work.elsewhere) {
-    work.elsewhere(study, text, open, [&](std::size_t k, const RunErrors& errors) { ledger.finished(k, errors); });
+    work.elsewhere(study, text, open, keep);
   } else {
     const std::size_t at_once = study.runs_at_once(open.size(), work.workers);
     parallel::for_each((open.size() + at_once - 1) / at_once, work.workers, [&](std::size_t piece) {
       const std::size_t first = piece * at_once;
       const auto numbers = std::span(open).subspan(first, std::min(at_once, open.size() - first));
       const std::vector<RunErrors> errors = study.run(model, numbers);
-      for (std::size_t k = 0; k < numbers.size(); ++k) ledger.finished(numbers[k], errors[k]);
+      for (std::size_t k = 0; k < numbers.size(); ++k) keep(numbers[k], errors[k]);
     });
   }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The text in which a study keeps its finished runs.
+/// The text in which a study keeps its finished runs, one line each.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -20,6 +20,11 @@ using FinishedRuns = std::vector<std::optional<RunErrors>>;  // by the index in 
 
 /// What such a text holds of `count` runs; nothing of another study's, nor of damaged lines.
 [[nodiscard]] FinishedRuns finished_runs(const std::string& text, std::uint64_t fingerprint, std::size_t count);
+
+/// The same of runs that are lines of text themselves.
+using FinishedLines = std::vector<std::optional<std::string>>;
+[[nodiscard]] std::string study_lines_state(std::uint64_t fingerprint, const FinishedLines& lines);
+[[nodiscard]] FinishedLines finished_lines(const std::string& text, std::uint64_t fingerprint, std::size_t count);
 
 /// A number that changes with any letter of the text.
 [[nodiscard]] std::uint64_t fingerprint_of(const std::string& text);

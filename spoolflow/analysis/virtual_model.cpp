@@ -33,6 +33,7 @@ model::Model virtual_model(const rig::ValveAndCampaign& asked, unsigned workers,
                                 [&](const rig::CampaignItem& item, const rig::BenchRun&, const rig::Simulation& run) {
                                   const std::lock_guard lock(mutex);
                                   recordings[item.file] = run.recording;
+                                  recordings[item.file].file = item.file;  // for messages
                                 },
                             .progress = [&](double share) { progress(measuring_share * share); },
                             .workers = workers});

@@ -1,22 +1,18 @@
 /// `spoolflow analyse`: how uncertain the flow rate is, why, and what to improve next.
-#include <fstream>
-
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "spoolflow/analysis/analysis.hpp"
 #include "spoolflow/analysis/dither_study.hpp"
 #include "spoolflow/analysis/ishigami.hpp"
+#include "spoolflow/apps/analyse_arguments.hpp"
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/elsewhere.hpp"
 #include "spoolflow/apps/terminal/output_file.hpp"
 #include "spoolflow/apps/terminal/progress.hpp"
-#include "spoolflow/apps/terminal/suggestion.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
-#include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/apps/work/analysed_run.hpp"
-#include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/report/analysis/analysis_report.hpp"
 #include "spoolflow/report/analysis/analysis_verdict.hpp"
 #include "spoolflow/report/analysis/dither_report.hpp"
@@ -26,27 +22,6 @@
 namespace spoolflow::apps {
 namespace {
 
-struct AnalyseArguments {
-  std::string model;
-  std::string scenario;
-  std::string json;
-  std::string report;
-  std::string recording;
-  std::string channels;
-  std::string self_check;
-  std::string fleet;  ///< whose workers do the runs of the study; empty: this machine
-  std::vector<std::string> units;
-  std::uint32_t samples = 0;  ///< 0: as the scenario says
-  std::uint64_t seed = 0;     ///< 0: as the scenario says
-  unsigned jobs = 0;          ///< 0: all cores
-  std::string direction;      ///< "a" or "b"; empty: that of the model, of a whole valve "b"
-  std::string dither_shape = "sine";
-  double ripple_limit_percent = 0.5;
-  bool dither = false;
-  bool print_scenario = false;
-  bool quiet = false;
-};
-
 /// Of the whole work, where there is a global study.
 constexpr double budget_share = 0.25;
 
@@ -54,11 +29,6 @@ constexpr double budget_share = 0.25;
 struct SelfCheckFailed : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-
-void print_lines(const std::string& text) {
-  print_text(terminal_lines(text));
-  flush_standard_output();
-}
 
 void self_check(const AnalyseArguments& arguments) {
   const analysis::SelfCheck check = analysis::check_ishigami(arguments.samples == 0 ? 1024 : arguments.samples,
@@ -82,47 +52,6 @@ void self_check(const AnalyseArguments& arguments) {
   if (!check.passed) throw SelfCheckFailed("self-check: a known index lies outside its confidence interval");
 }
 
-unsigned workers(const AnalyseArguments& arguments) {
-  return arguments.jobs == 0 ? parallel::cores() : arguments.jobs;
-}
-
-analysis::Scenario scenario_of(const AnalyseArguments& arguments) {
-  analysis::Scenario scenario;
-  if (!arguments.scenario.empty()) scenario = analysis::read_scenario(arguments.scenario);
-  if (arguments.samples != 0) scenario.study.base_samples = arguments.samples;
-  if (arguments.seed != 0) scenario.seed = arguments.seed;
-  return scenario;
-}
-
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-/// Where an interrupted study keeps its finished runs: beside the output, if that is a file.
-std::optional<std::filesystem::path> state_file(const AnalyseArguments& arguments) {
-  for (const std::string& output : {arguments.json, arguments.report}) {
-    if (!output.empty() && output != "-" && !output.starts_with("/dev/")) return output + ".study";
-  }
-  return std::nullopt;
-}
-
-/// The model, or of a whole valve the model of the direction asked for. Throws where the model knows another one only.
-model::Model model_of(const AnalyseArguments& arguments) {
-  std::vector<Input> roles{{arguments.model, FileKind::model}};
-  if (!arguments.recording.empty()) roles.push_back({arguments.recording, FileKind::recording, "--recording "});
-  refuse_other_kinds("analyse", roles);
-  model::Model model = model::read_model(arguments.model);
-  if (model.whole()) return model::of_direction(model, arguments.direction.empty() ? "b" : arguments.direction);
-  if (!arguments.direction.empty() && arguments.direction != model.valve.direction) {
-    throw model::ModelError(
-        fmt::format("{}: --direction {}: the model knows direction \"{}\" only; leave the option out, "
-                    "or calibrate the whole valve",
-                    arguments.model, arguments.direction, model.valve.direction));
-  }
-  return model;
-}
-
 analysis::RunSamples run_of(const model::Model& model, const AnalyseArguments& arguments) {
   recording::ChannelMap channels;
   if (!arguments.channels.empty()) channels = recording::read_channel_map(arguments.channels);
@@ -133,16 +62,7 @@ analysis::RunSamples run_of(const model::Model& model, const AnalyseArguments& a
 
 analysis::Study study(const model::Model& model, const analysis::Scenario& scenario, const rig::ValveAndCampaign& valve,
                       const AnalyseArguments& arguments, analysis::RunsWork done_elsewhere, Progress& progress) {
-  analysis::StudyWork work{.identity = std::string(tool_version()), .workers = workers(arguments)};
-  const std::optional<std::filesystem::path> state = state_file(arguments);
-  if (state) {
-    work.saved = bytes_of(*state);
-    work.save = [&](const std::string& text) {
-      OutputFile output(*state);
-      output.stream() << text;
-      output.commit();
-    };
-  }
+  analysis::StudyWork work = kept_work(arguments);
   work.progress = [&](const std::string& task, double share) {
     progress.task(task);
     progress.update(budget_share + (1 - budget_share) * share);
@@ -184,6 +104,7 @@ void analyse(const AnalyseArguments& arguments) {
   if (!arguments.self_check.empty()) return self_check(arguments);
   if (arguments.model.empty()) throw CLI::RequiredError("model");
   if (arguments.dither) return analyse_dither(arguments);
+  if (arguments.series > 0) return analyse_series(arguments);
   const report::ReaderUnits units(arguments.units);
   const model::Model model = model_of(arguments);
   analysis::Analysis results{scenario_of(arguments), {}, {}, {}, {}};
@@ -270,7 +191,8 @@ void add_analyse_command(CLI::App& program) {
        "the uncertainty budget with its check by Monte Carlo and the sensitivities as JSON; the verdict on standard "
        "output",
        {"spoolflow analyse valve_a.json --json analysis.json",
-        "spoolflow analyse valve_a.json --dither --ripple-limit 0.3 --report dither.html"}});
+        "spoolflow analyse valve_a.json --dither --ripple-limit 0.3 --report dither.html",
+        "spoolflow analyse type_a.json --series 200 --json series.json --report series.html"}});
   command->add_option("model", arguments->model, "model file");
   command->add_option("--scenario", arguments->scenario, "what to analyse; every key has a default")
       ->type_name("S.toml");
@@ -297,7 +219,14 @@ void add_analyse_command(CLI::App& program) {
       ->type_name("NAME")
       ->check(CLI::IsMember({"a", "b"}));
   CLI::Option* const fleet = add_fleet_option(*command, arguments->fleet, "of the global study");
-  add_dither_options(*command, *arguments, {recording, samples, fleet});
+  CLI::Option* const series =
+      command
+          ->add_option("--series", arguments->series,
+                       "judge so many virtual units of a type instead: by type, minute, own campaign")
+          ->type_name("UNITS")
+          ->check(CLI::Range(1U, 10000U));
+  for (CLI::Option* const other : {recording, samples, fleet}) series->excludes(other);
+  add_dither_options(*command, *arguments, {recording, samples, fleet, series});
   command->add_flag("--print-scenario", arguments->print_scenario, "print a scenario with all keys and end");
   command->add_option("--self-check", arguments->self_check, "check the Sobol indices on a function whose are known")
       ->type_name("NAME")

@@ -92,9 +92,29 @@ recording::CampaignValve valve_of_type(const model::Model& type) {
   return {type.valve.name, type.valve.rated_flow_m3_per_s, type.valve.stroke_m, type.valve.direction};
 }
 
+UnitCalibration unit_of_type(const model::Model& type, const std::string& type_file, const UnitRecordings& unit) {
+  const KnownDeviations prior = known_of_type(type, type_file);
+  const UnitEvidence evidence(type, unit.runs);
+  require_evidence(evidence, unit.file);
+  const UnitFit fit = most_likely_unit(evidence, prior);
+  Deviations tolerances{};
+  for (std::size_t k = 0; k < variations; ++k) tolerances[k] = type.type->deviations[k].tolerance;
+  UnitCalibration out{type, compared(fit, prior, tolerances), 0, fit.misfit, fit.known, {}};
+  for (const UnitParameter& parameter : out.parameters) out.chi_square += parameter.deviations * parameter.deviations;
+  out.model.valve.name = unit.name;
+  out.refusal = refusal_of(out, unit.file, type.type->name);
+  if (!out.refusal.empty()) throw ForeignUnit(std::move(out));
+  const Deviations deviations = deviations_from(fit.known.mean);
+  out.model.observer->parameters = unit_parameters(type.observer->parameters, deviations);
+  out.model.condensed.parameters = unit_parameters(type.condensed.parameters, deviations);
+  out.model.type = type_section(type.type->name, true, tolerances, fit.known, type.type->environment);
+  set_spread(out.model, type.type->environment, fit.known);
+  return out;
+}
+
 UnitCalibration calibrate_unit(const model::Model& type, const std::string& type_file, const recording::Campaign& unit,
                                const std::string& tool_version, const CalibrationProgress& progress) {
-  const KnownDeviations prior = known_of_type(type, type_file);
+  static_cast<void>(known_of_type(type, type_file));  // is it one
   const std::vector<recording::ReadOptions> options = unit_read_options(unit);
   model::Provenance provenance{tool_version, model::creation_time(), {}};
   provenance.inputs.push_back({"campaign", unit.file.filename().string(), model::sha256_of_file(unit.file), 0});
@@ -116,22 +136,8 @@ UnitCalibration calibrate_unit(const model::Model& type, const std::string& type
   }
   constexpr double reading_share = 0.3;
   progress("the unit against its type", reading_share);
-  const UnitEvidence evidence(type, runs);
-  require_evidence(evidence, unit.file.string());
-  const UnitFit fit = most_likely_unit(evidence, prior);
-  Deviations tolerances{};
-  for (std::size_t k = 0; k < variations; ++k) tolerances[k] = type.type->deviations[k].tolerance;
-  UnitCalibration out{type, compared(fit, prior, tolerances), 0, fit.misfit, fit.known, {}};
-  for (const UnitParameter& parameter : out.parameters) out.chi_square += parameter.deviations * parameter.deviations;
-  out.model.valve.name = unit.valve.name;
-  out.refusal = refusal_of(out, unit.file.string(), type.type->name);
-  if (!out.refusal.empty()) throw ForeignUnit(std::move(out));
-  const Deviations deviations = deviations_from(fit.known.mean);
+  UnitCalibration out = unit_of_type(type, type_file, {unit.valve.name, unit.file.string(), std::move(runs)});
   out.model.provenance = std::move(provenance);
-  out.model.observer->parameters = unit_parameters(type.observer->parameters, deviations);
-  out.model.condensed.parameters = unit_parameters(type.condensed.parameters, deviations);
-  out.model.type = type_section(type.type->name, true, tolerances, fit.known, type.type->environment);
-  set_spread(out.model, type.type->environment, fit.known);
   progress("done", 1.0);
   return out;
 }

@@ -7,6 +7,7 @@
 #include "spoolflow/calibration/calibrate.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/type/map_estimate.hpp"
+#include "spoolflow/calibration/type/unit_evidence.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/recording/campaign.hpp"
 
@@ -51,9 +52,20 @@ struct ForeignUnit : CalibrationError {
 /// The name of a unit's protocol in provenance that stands for its type's model.
 inline constexpr const char* type_protocol = "type";
 
-/// Reads the unit's recordings and fits them. `type_file` is the file of `type`, for provenance and messages. Throws
-/// RecordingError or CalibrationError: recordings that cannot serve, or that show nothing of any direction;
-/// ForeignUnit: it is not of the type, with the directions by name and by how many standard deviations.
+/// A unit's recordings in memory.
+struct UnitRecordings {
+  std::string name;  ///< the unit's, as its model has it
+  std::string file;  ///< what messages name
+  std::vector<UnitRun> runs;
+};
+
+/// Fits them. The model keeps the type's provenance. Throws CalibrationError: recordings that show nothing of any
+/// direction; ForeignUnit: it is not of the type, with the directions by name and by how many standard deviations.
+[[nodiscard]] UnitCalibration unit_of_type(const model::Model& type, const std::string& type_file,
+                                           const UnitRecordings& unit);
+
+/// Reads the unit's recordings and does the same, with a provenance of its own. `type_file` is the file of `type`, for
+/// provenance and messages. Throws RecordingError or CalibrationError for recordings that cannot serve.
 [[nodiscard]] UnitCalibration calibrate_unit(const model::Model& type, const std::string& type_file,
                                              const recording::Campaign& unit, const std::string& tool_version,
                                              const CalibrationProgress& progress);

@@ -10,7 +10,7 @@ namespace spoolflow::report {
 namespace {
 
 /// In % FS per newton.
-constexpr HeatScale heat({0, 0.5, 1, 1.5, 2, 3, 5, 10});
+constexpr HeatScale sensitivity_heat({0, 0.5, 1, 1.5, 2, 3, 5, 10});
 
 /// Half way to the neighbour before the k-th grid point; the grid's own ends stay.
 double edge_before(const std::vector<double>& grid, std::size_t k) {
@@ -27,7 +27,7 @@ std::vector<Cell> cells_of(const model::SensitivityMap& map, double full_scale_m
       const double slope = 100 * map.flow_per_force_m3_per_s_N[p * columns + d] / full_scale_m3_per_s;
       cells.push_back({edge_before(map.position_m, p), edge_before(map.position_m, p + 1),
                        edge_before(map.pressure_difference_Pa, d), edge_before(map.pressure_difference_Pa, d + 1),
-                       heat.colour(slope)});
+                       sensitivity_heat.colour(slope)});
     }
   }
   return cells;
@@ -62,7 +62,7 @@ CaptionedFigure sensitivity_figure(const model::Model& model, const std::vector<
                           .x_highest = model.valve.stroke_m,
                       },
                       {},
-                      heat.legend("% FS per newton")};
+                      sensitivity_heat.legend("% FS per newton")};
   Panel panel{.title = "Pressure difference", .quantity = units::Kind::pressure, .height_px = 330, .lowest = 0.0};
   if (!map.position_m.empty() && !map.pressure_difference_Pa.empty()) {
     panel.cells = cells_of(map, model.valve.rated_flow_m3_per_s);
