@@ -9,7 +9,6 @@
 #include <fmt/ranges.h>
 
 #include "spoolflow/analysis/study_ledger.hpp"
-#include "spoolflow/analysis/virtual_unit.hpp"
 #include "spoolflow/calibration/type/plan_minute.hpp"
 #include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/units/conversion.hpp"
@@ -117,11 +116,6 @@ SeriesStudyUnit unit_from(const std::string& line, std::uint64_t spread_seed) {
 
 }  // namespace
 
-const char* name(KnownBy by) {
-  static constexpr std::array names{"type", "strokes", "minute", "campaign"};
-  return names[static_cast<std::size_t>(by)];
-}
-
 std::size_t SeriesStudy::refused(KnownBy by) const {
   return static_cast<std::size_t>(
       std::ranges::count_if(units, [&](const SeriesStudyUnit& unit) { return !unit.judged(by).refusal.empty(); }));
@@ -170,7 +164,7 @@ SeriesStudy series_study(const model::Model& type, const std::string& type_file,
     work.progress("units of the series", planning_share + (1 - planning_share) * share);
   };
   Ledger ledger(
-      open.size(), work, [&] { return study_lines_state(fingerprint, lines); }, report);
+      open.size(), {work.saving_interval_s, work.save}, [&] { return study_lines_state(fingerprint, lines); }, report);
   report(0);
   parallel::for_each(open.size(), work.workers, [&](std::size_t piece) {
     const std::size_t k = open[piece];

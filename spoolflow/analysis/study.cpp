@@ -175,7 +175,7 @@ Study global_study(const model::Model& given, const Scenario& scenario, const ri
     if (!runs[k]) open.push_back(k);
   }
   Ledger ledger(
-      open.size(), work, [&] { return study_state(study.fingerprint(), runs); },
+      open.size(), {work.saving_interval_s, work.save}, [&] { return study_state(study.fingerprint(), runs); },
       [&](double share) { work.progress("simulating the series", before + (1 - before) * share); });
   const auto keep = [&](std::size_t k, const RunErrors& errors) { ledger.finished([&] { runs[k] = errors; }); };
   if (work.elsewhere) {

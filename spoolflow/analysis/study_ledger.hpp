@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/analysis/study.hpp"
 #include "spoolflow/rig/numerics/parameter.hpp"
 
 namespace spoolflow::analysis {
@@ -16,19 +15,24 @@ namespace spoolflow::analysis {
 /// Counts finished runs, has them saved now and then, and reports progress.
 class Ledger {
  public:
+  /// Gets all finished runs as text every now and then.
+  struct Saving {
+    double interval_s;
+    const std::function<void(const std::string&)>& save;
+  };
   /// `open` runs are to be done. `state` is all that is finished, as text; `progress` gets the share of the open ones.
-  Ledger(std::size_t open, const StudyWork& work, std::function<std::string()> state,
+  Ledger(std::size_t open, const Saving& saving, std::function<std::string()> state,
          std::function<void(double)> progress)
-      : open_(open), work_(work), state_(std::move(state)), progress_(std::move(progress)) {}
+      : open_(open), saving_(saving), state_(std::move(state)), progress_(std::move(progress)) {}
   /// `keep` puts the result where `state` finds it. From any thread.
   void finished(const std::function<void()>& keep) {
     const std::lock_guard lock(mutex_);
     keep();
     ++done_;
     const Clock::time_point now = Clock::now();
-    if (std::chrono::duration<double>(now - saved_).count() >= work_.saving_interval_s) {
+    if (std::chrono::duration<double>(now - saved_).count() >= saving_.interval_s) {
       saved_ = now;
-      work_.save(state_());
+      saving_.save(state_());
     }
     progress_(static_cast<double>(done_) / static_cast<double>(open_));
   }
@@ -36,7 +40,7 @@ class Ledger {
  private:
   using Clock = std::chrono::steady_clock;
   std::size_t open_, done_ = 0;
-  const StudyWork& work_;
+  Saving saving_;
   std::function<std::string()> state_;
   std::function<void(double)> progress_;
   std::mutex mutex_;

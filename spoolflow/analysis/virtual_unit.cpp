@@ -74,6 +74,11 @@ std::vector<calibration::UnitRun> unit_runs(const Recording& strokes, const Reco
 
 }  // namespace
 
+const char* name(KnownBy by) {
+  static constexpr std::array names{"type", "strokes", "minute", "campaign"};
+  return names[static_cast<std::size_t>(by)];
+}
+
 SeriesStudyUnit judged_unit(const SeriesPlan& plan, const rig::ValveAndCampaign& unit) {
   const Measured recordings = measured(plan, unit);
   const Recording bare_minute = without_instruments(recordings.minute);

@@ -5,7 +5,7 @@
 #include "spoolflow/analysis/analysis.hpp"
 #include "spoolflow/analysis/dither_study.hpp"
 #include "spoolflow/analysis/ishigami.hpp"
-#include "spoolflow/apps/analyse_arguments.hpp"
+#include "spoolflow/apps/analyse_series.hpp"
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/elsewhere.hpp"

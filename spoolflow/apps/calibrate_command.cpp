@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "spoolflow/apps/calibrate_type.hpp"
 #include "spoolflow/apps/calibrate_units.hpp"
 #include "spoolflow/apps/calibrate_work.hpp"
 #include "spoolflow/apps/command.hpp"
