@@ -219,12 +219,11 @@ void add_analyse_command(CLI::App& program) {
       ->type_name("NAME")
       ->check(CLI::IsMember({"a", "b"}));
   CLI::Option* const fleet = add_fleet_option(*command, arguments->fleet, "of the global study");
-  CLI::Option* const series =
-      command
-          ->add_option("--series", arguments->series,
-                       "judge so many virtual units of a type instead: by type, minute, own campaign")
-          ->type_name("UNITS")
-          ->check(CLI::Range(1U, 10000U));
+  CLI::Option* const series = command
+                                  ->add_option("--series", arguments->series,
+                                               "judge virtual units of a type instead: by type, minute, campaign")
+                                  ->type_name("UNITS")
+                                  ->check(CLI::Range(1U, 10000U));
   for (CLI::Option* const other : {recording, samples, fleet}) series->excludes(other);
   add_dither_options(*command, *arguments, {recording, samples, fleet, series});
   command->add_flag("--print-scenario", arguments->print_scenario, "print a scenario with all keys and end");
