@@ -104,11 +104,7 @@ void analyse(const AnalyseArguments& arguments) {
   if (!arguments.self_check.empty()) return self_check(arguments);
   if (arguments.model.empty()) throw CLI::RequiredError("model");
   if (arguments.dither) return analyse_dither(arguments);
-  if (arguments.series > 0) {
-    if (!arguments.channels.empty())
-      throw std::invalid_argument("--channels: --series reads no recording; leave it away");
-    return analyse_series(arguments);
-  }
+  if (arguments.series > 0) return analyse_series(arguments);
   const report::ReaderUnits units(arguments.units);
   const model::Model model = model_of(arguments);
   analysis::Analysis results{scenario_of(arguments), {}, {}, {}, {}};

@@ -1,6 +1,7 @@
 #include "spoolflow/apps/analyse_series.hpp"
 
 #include <fstream>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -95,6 +96,8 @@ model::Model model_of(const AnalyseArguments& arguments) {
 }
 
 void analyse_series(const AnalyseArguments& arguments) {
+  if (!arguments.channels.empty())
+    throw std::invalid_argument("--channels: --series reads no recording; leave it away");
   const report::ReaderUnits units(arguments.units);
   const model::Model type = model_of(arguments);
   const analysis::Scenario scenario = scenario_of(arguments);
