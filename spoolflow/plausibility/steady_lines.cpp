@@ -100,7 +100,7 @@ struct MedianSpectrum::Parts {
       std::vector<float>& kept = power.emplace_back(bins);
       for (std::size_t k = 0; k < bins; ++k) kept[k] = static_cast<float>(std::norm(spectrum[k]));
       if (power.size() == most_pieces) {
-        for (std::size_t k = 0; 2 * k < most_pieces; ++k) power[k] = std::move(power[2 * k]);
+        for (std::size_t k = 1; 2 * k < most_pieces; ++k) power[k] = std::move(power[2 * k]);
         power.resize(most_pieces / 2);
         stride *= 2;
       }

@@ -82,6 +82,21 @@ TEST(SteadyLines, APwmThatIsSampledAtInstantsIsNamedWithWhatToDeclare) {
               ElementsAre(AllOf(HasSubstr("current beats at 19.0 Hz by"), HasSubstr("pwm_ripple_percent = 3.9"))));
 }
 
+TEST(SteadyLines, OfARunOfAnHourAreThoseOfAllItsTime) {
+  MedianSpectrum spectrum;
+  for (int block = 0; block < 36; ++block) {
+    std::vector<double> time_s, position_m;
+    for (int k = 0; k < 50000; ++k) {
+      time_s.push_back((50000 * block + k) / 500.0);
+      position_m.push_back(2e-6 * sine(35.2, time_s.back()) + 1e-7 * std::sin(1.0 * k * k));
+    }
+    spectrum.take(time_s, position_m);
+  }
+  const auto line = spectrum.line(15, 120, {});
+  ASSERT_TRUE(line);
+  EXPECT_NEAR(line->frequency_Hz, 35.2, 0.05);
+}
+
 TEST(SteadyLines, AMissingValueCostsItsOwnPieceAlone) {
   const auto sometimes_missing = [](double now_s) {
     return std::fmod(now_s, 9) < 1e-4 ? std::nan("") : 2e-6 * sine(35.2, now_s);
