@@ -6,7 +6,7 @@
 A valve drawn from its series is calibrated by its own campaign, then worn: edges that pass some 10 % more, friction + 30 %, zero + 15 um. It makes 20
 strokes of a cylinder, whose ends are marked in a file, and three seconds of the closed valve; ramps and a duty cycle judge. The cylinder is filled by the true flow of the recording, and by
 nothing else of it; then with a leaking seal, another consumer, or an area that is wrong in references.toml. --tuning makes the valves on which constants
-are chosen; without it those that nobody looked at. The worn valve is also calibrated anew on its bench. What is there already is not made again. Printed are 95 % of the errors in % of full scale and the
+are chosen; without it those that nobody looked at. The worn valve is also calibrated again on its bench. What is there already is not made again. Printed are 95 % of the errors in % of full scale and the
 share in the band. Standard library only.
 """
 import concurrent.futures
@@ -148,8 +148,8 @@ def main(arguments):
             before = {run: judged(spoolflow, folder, folder / "model.json", f"{quality}_{run}") for run in JUDGED}
             print(f"{seed} {quality:6} {'without references':18}", *(f"{run} {shown(before[run])}" for run in JUDGED), flush=True)
             if quality == "worn":
-                anew = [f"{run} {shown(judged(spoolflow, folder, folder / 'worn_model.json', f'worn_{run}'))}" for run in JUDGED]
-                print(f"{seed} worn   {'calibrated anew':18}", *anew, flush=True)
+                again = [f"{run} {shown(judged(spoolflow, folder, folder / 'worn_model.json', f'worn_{run}'))}" for run in JUDGED]
+                print(f"{seed} worn   {'calibrated again':18}", *again, flush=True)
             for case in CASES:
                 references = mark(folder, quality, case)
                 model = folder / f"{references.stem}.model.json"

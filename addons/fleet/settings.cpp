@@ -52,18 +52,13 @@ void read_jobs(const TomlTable& jobs, JobSettings& out) {
 }
 
 void read_sites(const TomlTable& top, FleetSettings& out) {
-  const toml::node* const node = top.table.get("sites");
-  if (node == nullptr) return;
-  const toml::array* const list = node->as_array();
-  for (std::size_t k = 0; list != nullptr && k < list->size(); ++k) {
-    const auto name = (*list)[k].value_exact<std::string>();
-    if (!name) break;
-    live::check_site_name(*name, top.place("sites"));
-    out.sites.push_back(*name);
-  }
-  if (list == nullptr || out.sites.size() != list->size()) {
+  if (!top.table.contains("sites")) return;
+  auto names = top.list_of_texts("sites");
+  if (!names) {
     throw live::SiteError(fmt::format("{}: sites must be a list of names, such as [\"hall_3\"]", top.place("sites")));
   }
+  for (const std::string& name : *names) live::check_site_name(name, top.place("sites"));
+  out.sites = std::move(*names);
 }
 
 }  // namespace

@@ -58,16 +58,14 @@ std::filesystem::path file_of(const TomlTable& table, const char* key) {
 }
 
 std::vector<std::string> who_may_ask(const TomlTable& table) {
-  std::vector<std::string> out;
-  const toml::node* node = table.table.get("allow");
-  if (node == nullptr) return out;
-  const toml::array* const list = node->as_array();
-  for (std::size_t k = 0; list != nullptr && k < list->size(); ++k) {
-    if (const auto text = (*list)[k].value_exact<std::string>()) out.push_back(read_host(*text, table.place("allow")));
+  if (!table.table.contains("allow")) return {};
+  auto out = table.list_of_texts("allow");
+  if (!out) {
+    throw SiteError(
+        fmt::format("{}: 'allow' must be a list of addresses, such as [\"192.168.0.7\"]", table.place("allow")));
   }
-  if (list != nullptr && out.size() == list->size()) return out;
-  throw SiteError(
-      fmt::format("{}: 'allow' must be a list of addresses, such as [\"192.168.0.7\"]", table.place("allow")));
+  for (std::string& host : *out) host = read_host(host, table.place("allow"));
+  return std::move(*out);
 }
 
 std::string topic_part(const TomlTable& table, const char* key) {

@@ -29,7 +29,7 @@ class GatheredSamples {
   void take(const estimation::TimedSample& sample);
   /// As a file's numbers are checked at its end.
   void finish();
-  /// What no valve has in that unit, as of a file; empty: nothing yet.
+  /// What no valve has in that unit, in the words of a file's error; empty: nothing yet.
   [[nodiscard]] const std::string& implausible() const { return implausible_; }
   [[nodiscard]] double length_s() const { return last_s_ - first_s_; }
   [[nodiscard]] bool has_gap() const { return means_.gaps().count > 0; }

@@ -83,15 +83,13 @@ std::string mail_address(const TomlTable& notify, const char* key, const std::st
 }
 
 std::vector<std::string> recipients(const TomlTable& notify) {
-  std::vector<std::string> out;
-  const toml::node* const node = notify.table.get("to");
-  const toml::array* const list = node == nullptr ? nullptr : node->as_array();
-  for (std::size_t k = 0; list != nullptr && k < list->size(); ++k) {
-    if (const auto text = (*list)[k].value_exact<std::string>()) out.push_back(mail_address(notify, "to", *text));
+  auto out = notify.list_of_texts("to");
+  if (!out || out->empty()) {
+    throw SiteError(fmt::format("{}: mail needs its recipients as to = [\"maintenance@example.org\"]",
+                                notify.place(notify.table.contains("to") ? "to" : "mail")));
   }
-  if (list != nullptr && !out.empty() && out.size() == list->size()) return out;
-  throw SiteError(fmt::format("{}: mail needs its recipients as to = [\"maintenance@example.org\"]",
-                              node == nullptr ? notify.place("mail") : notify.place("to")));
+  for (std::string& text : *out) text = mail_address(notify, "to", text);
+  return std::move(*out);
 }
 
 Ne107 read_least(const TomlTable& notify) {

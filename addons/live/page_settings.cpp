@@ -41,17 +41,9 @@ Account read_account(const TomlTable& table) {
 }
 
 std::vector<std::string> read_texts(const TomlTable& page, std::string_view key, const char* example) {
-  std::vector<std::string> out;
-  const toml::node* node = page.table.get(key);
-  if (node == nullptr) return out;
-  const toml::array* const list = node->as_array();
-  for (std::size_t k = 0; list != nullptr && k < list->size(); ++k) {
-    if (const auto text = (*list)[k].value_exact<std::string>()) out.push_back(*text);
-  }
-  if (list == nullptr || out.size() != list->size()) {
-    throw SiteError(fmt::format("{}: {} must be a list of texts, such as [\"{}\"]", page.place(key), key, example));
-  }
-  return out;
+  if (!page.table.contains(key)) return {};
+  if (auto out = page.list_of_texts(key)) return std::move(*out);
+  throw SiteError(fmt::format("{}: {} must be a list of texts, such as [\"{}\"]", page.place(key), key, example));
 }
 
 }  // namespace

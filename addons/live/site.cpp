@@ -149,19 +149,9 @@ ValveSettings read_valve(const TomlTable& valve, Models& models) {
 }
 
 std::vector<std::string> texts(const TomlTable& table, std::string_view key) {
-  std::vector<std::string> out;
-  const toml::node* node = table.table.get(key);
-  if (node == nullptr) return out;
-  const toml::array* const list = node->as_array();
-  for (std::size_t k = 0; list != nullptr && k < list->size(); ++k) {
-    const auto text = (*list)[k].value_exact<std::string>();
-    if (!text) break;
-    out.push_back(*text);
-  }
-  if (list == nullptr || out.size() != list->size()) {
-    throw SiteError(fmt::format("{}: '{}' must be a list of texts, such as [\"192.168.0.7\"]", table.place(key), key));
-  }
-  return out;
+  if (!table.table.contains(key)) return {};
+  if (auto out = table.list_of_texts(key)) return std::move(*out);
+  throw SiteError(fmt::format("{}: '{}' must be a list of texts, such as [\"192.168.0.7\"]", table.place(key), key));
 }
 
 void read_parts(const TomlTable& top, SiteSettings& site) {

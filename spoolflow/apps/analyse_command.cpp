@@ -78,20 +78,14 @@ void analyse_dither(const AnalyseArguments& arguments) {
   question.points = scenario_of(arguments).points;
   question.shape = arguments.dither_shape == "sine" ? analysis::DitherShape::sine : analysis::DitherShape::square;
   question.ripple_limit_share = 0.01 * arguments.ripple_limit_percent;
-  std::vector<std::filesystem::path> inputs{arguments.model};
-  if (!arguments.scenario.empty()) inputs.emplace_back(arguments.scenario);
-  std::optional<OutputFile> page;
-  std::optional<OutputFile> figures;
-  if (!arguments.report.empty()) page.emplace(arguments.report, inputs);
-  if (!arguments.report.empty()) inputs.emplace_back(arguments.report);
-  if (!arguments.json.empty()) figures.emplace(arguments.json, inputs);
+  AnalyseOutputs outputs(arguments);
   const analysis::DitherStudy results = [&] {
     Progress progress("dither", arguments.quiet);
     return analysis::dither_study(model, question, workers(arguments));
   }();
-  if (page) report::write_dither_report(page->stream(), model, results, units);
-  if (figures) report::write_dither_json(figures->stream(), model, results);
-  commit_together({page ? &*page : nullptr, figures ? &*figures : nullptr});
+  if (outputs.page) report::write_dither_report(outputs.page->stream(), model, results, units);
+  if (outputs.figures) report::write_dither_json(outputs.figures->stream(), model, results);
+  outputs.commit();
   if (arguments.json == "-" || arguments.report == "-") return;
   const report::DitherVerdict verdict = report::dither_verdict(model, results);
   std::string text = verdict.sentence.in(units) + "\n";
@@ -108,16 +102,7 @@ void analyse(const AnalyseArguments& arguments) {
   const report::ReaderUnits units(arguments.units);
   const model::Model model = model_of(arguments);
   analysis::Analysis results{scenario_of(arguments), {}, {}, {}, {}};
-  std::vector<std::filesystem::path> inputs{arguments.model};
-  if (!arguments.scenario.empty()) inputs.emplace_back(arguments.scenario);
-  for (const std::string& file : {arguments.recording, arguments.channels}) {
-    if (!file.empty()) inputs.emplace_back(file);
-  }
-  std::optional<OutputFile> page;
-  std::optional<OutputFile> figures;
-  if (!arguments.report.empty()) page.emplace(arguments.report, inputs);
-  if (!arguments.report.empty()) inputs.emplace_back(arguments.report);
-  if (!arguments.json.empty()) figures.emplace(arguments.json, inputs);
+  AnalyseOutputs outputs(arguments);
   const bool whole = !results.scenario.study.skip;
   std::optional<analysis::RunSamples> run;
   if (!arguments.recording.empty()) run = run_of(model, arguments);
@@ -147,9 +132,9 @@ void analyse(const AnalyseArguments& arguments) {
     }
     if (whole) results.study = study(model, results.scenario, *valve, arguments, std::move(done_elsewhere), progress);
   }
-  if (page) report::write_analysis_report(page->stream(), model, results, units);
-  if (figures) report::write_analysis_json(figures->stream(), model, results);
-  commit_together({page ? &*page : nullptr, figures ? &*figures : nullptr});
+  if (outputs.page) report::write_analysis_report(outputs.page->stream(), model, results, units);
+  if (outputs.figures) report::write_analysis_json(outputs.figures->stream(), model, results);
+  outputs.commit();
   if (const auto state = state_file(arguments)) std::filesystem::remove(*state);
   if (arguments.json != "-" && arguments.report != "-") {
     const report::AnalysisVerdict verdict = report::analysis_verdict(model, results);

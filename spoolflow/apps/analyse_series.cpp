@@ -43,6 +43,22 @@ std::string bytes_of(const std::filesystem::path& file) {
 
 }  // namespace
 
+AnalyseOutputs::AnalyseOutputs(const AnalyseArguments& arguments) {
+  std::vector<std::filesystem::path> inputs{arguments.model};
+  for (const std::string& file : {arguments.scenario, arguments.recording, arguments.channels}) {
+    if (!file.empty()) inputs.emplace_back(file);
+  }
+  if (!arguments.report.empty()) {
+    page.emplace(arguments.report, inputs);
+    inputs.emplace_back(arguments.report);
+  }
+  if (!arguments.json.empty()) figures.emplace(arguments.json, inputs);
+}
+
+void AnalyseOutputs::commit() {
+  commit_together({page ? &*page : nullptr, figures ? &*figures : nullptr});
+}
+
 void print_lines(const std::string& text) {
   print_text(terminal_lines(text));
   flush_standard_output();
@@ -101,13 +117,7 @@ void analyse_series(const AnalyseArguments& arguments) {
   const report::ReaderUnits units(arguments.units);
   const model::Model type = model_of(arguments);
   const analysis::Scenario scenario = scenario_of(arguments);
-  std::vector<std::filesystem::path> inputs{arguments.model};
-  if (!arguments.scenario.empty()) inputs.emplace_back(arguments.scenario);
-  std::optional<OutputFile> page;
-  std::optional<OutputFile> figures;
-  if (!arguments.report.empty()) page.emplace(arguments.report, inputs);
-  if (!arguments.report.empty()) inputs.emplace_back(arguments.report);
-  if (!arguments.json.empty()) figures.emplace(arguments.json, inputs);
+  AnalyseOutputs outputs(arguments);
   const rig::ValveAndCampaign valve = analysis::study_valve(type, scenario);
   const analysis::SeriesStudy study = [&] {
     Progress progress("series", arguments.quiet);
@@ -118,9 +128,9 @@ void analyse_series(const AnalyseArguments& arguments) {
     };
     return analysis::series_study(type, arguments.model, valve, arguments.series, scenario.seed, work);
   }();
-  if (page) report::write_series_study_report(page->stream(), type, study, units);
-  if (figures) report::write_series_study_json(figures->stream(), type, study);
-  commit_together({page ? &*page : nullptr, figures ? &*figures : nullptr});
+  if (outputs.page) report::write_series_study_report(outputs.page->stream(), type, study, units);
+  if (outputs.figures) report::write_series_study_json(outputs.figures->stream(), type, study);
+  outputs.commit();
   if (const auto state = state_file(arguments)) std::filesystem::remove(*state);
   if (arguments.json == "-" || arguments.report == "-") return;
   print_lines(report::series_verdict(study) + "\n");

@@ -9,6 +9,7 @@
 
 #include "spoolflow/analysis/scenario.hpp"
 #include "spoolflow/analysis/study.hpp"
+#include "spoolflow/apps/terminal/output_file.hpp"
 #include "spoolflow/model/model.hpp"
 
 namespace spoolflow::apps {
@@ -46,6 +47,13 @@ void analyse_series(const AnalyseArguments& arguments);
 [[nodiscard]] analysis::StudyWork kept_work(const AnalyseArguments& arguments);
 /// The model, or of a whole valve the model of the direction asked for. Throws where the model knows another one only.
 [[nodiscard]] model::Model model_of(const AnalyseArguments& arguments);
+/// The page and the figures that are asked for; both appear by commit(), or neither.
+struct AnalyseOutputs {
+  explicit AnalyseOutputs(const AnalyseArguments& arguments);
+  void commit();
+
+  std::optional<OutputFile> page, figures;
+};
 void print_lines(const std::string& text);
 
 }  // namespace spoolflow::apps

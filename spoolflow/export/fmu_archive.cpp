@@ -1,6 +1,5 @@
 #include "spoolflow/export/fmu_archive.hpp"
 
-#include <ctime>
 #include <stdexcept>
 #include <vector>
 
@@ -9,6 +8,7 @@
 #include "spoolflow/export/checksum.hpp"
 #include "spoolflow/export/fmu_assets.hpp"
 #include "spoolflow/export/zip_archive.hpp"
+#include "spoolflow/model/provenance.hpp"
 
 namespace spoolflow::exports {
 namespace {
@@ -18,13 +18,6 @@ std::string asset(std::string_view name) {
     if (file.name == name) return std::string(file.bytes);
   }
   throw std::logic_error("no embedded file " + std::string(name));
-}
-
-/// Seconds since 1970 of an ISO 8601 time in UTC.
-std::time_t seconds(const std::string& time) {
-  std::tm utc{};
-  if (::strptime(time.c_str(), "%Y-%m-%dT%H:%M:%SZ", &utc) == nullptr) return 0;
-  return ::timegm(&utc);
 }
 
 }  // namespace
@@ -74,7 +67,7 @@ std::string fmu_archive(FmuContent content, const FmuParts& parts, FmiVersion ve
   for (const EmbeddedFile& source : parts.sources) {
     members.push_back({"sources/" + std::string(source.name), std::string(source.bytes)});
   }
-  return zip_archive(members, seconds(content.generation_time));
+  return zip_archive(members, model::seconds_of(content.generation_time).value_or(0));
 }
 
 }  // namespace spoolflow::exports

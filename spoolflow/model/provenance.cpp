@@ -33,7 +33,8 @@ std::string sha256_of_text(std::string_view text) {
 
 namespace {
 constexpr std::int64_t last_creation_s = 7258118399;  // a page of a later date would win over all that come
-}
+constexpr const char* iso_8601 = "%Y-%m-%dT%H:%M:%SZ";
+}  // namespace
 
 std::int64_t creation_seconds() {
   const char* const epoch = std::getenv("SOURCE_DATE_EPOCH");
@@ -55,7 +56,14 @@ std::string creation_time() {
   std::tm utc{};
   gmtime_r(&now, &utc);
   std::array<char, 32> text;
-  return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc)};
+  return {text.data(), std::strftime(text.data(), text.size(), iso_8601, &utc)};
+}
+
+std::optional<std::int64_t> seconds_of(const std::string& utc) {
+  std::tm time{};
+  const char* const end = strptime(utc.c_str(), iso_8601, &time);
+  if (end == nullptr || *end != '\0') return std::nullopt;
+  return timegm(&time);
 }
 
 }  // namespace spoolflow::model

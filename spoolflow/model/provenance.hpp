@@ -80,5 +80,7 @@ struct Provenance {
 [[nodiscard]] std::int64_t creation_seconds();
 /// The same in UTC, ISO 8601 to the second.
 [[nodiscard]] std::string creation_time();
+/// Seconds since 1970 of such a text; nothing where it is none.
+[[nodiscard]] std::optional<std::int64_t> seconds_of(const std::string& utc);
 
 }  // namespace spoolflow::model

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 #include <fmt/format.h>
 
@@ -156,40 +155,35 @@ model::Model adapted(const model::Model& model, const Findings& findings, model:
   return out;
 }
 
-std::optional<double> seconds_of(const std::string& utc) {
-  std::tm time{};
-  const char* const end = strptime(utc.c_str(), "%Y-%m-%dT%H:%M:%SZ", &time);
-  if (end == nullptr || *end != '\0') return {};
-  return static_cast<double>(timegm(&time));
-}
-
 std::optional<WearDrift> wear_drift(const model::Provenance& provenance) {
-  const std::optional<double> calibrated_s = seconds_of(provenance.created);
-  if (!calibrated_s) return {};
-  std::vector<Look> width{{*calibrated_s, 0, least_width}}, friction{{*calibrated_s, 0, least_friction}},
-      zero{{*calibrated_s, 0, sensor::ReferencePriors::closed_uncertainty_m}};
-  double last_s = *calibrated_s;
+  const auto created_s = model::seconds_of(provenance.created);
+  if (!created_s) return {};
+  const auto calibrated_s = static_cast<double>(*created_s);
+  std::vector<Look> width{{calibrated_s, 0, least_width}}, friction{{calibrated_s, 0, least_friction}},
+      zero{{calibrated_s, 0, sensor::ReferencePriors::closed_uncertainty_m}};
+  double last_s = calibrated_s;
   for (const model::Adaptation& each : provenance.adaptations) {
-    const std::optional<double> time_s = seconds_of(each.created);
-    if (!each.wear || !time_s) continue;
+    const auto looked_s = model::seconds_of(each.created);
+    if (!each.wear || !looked_s) continue;
+    const auto time_s = static_cast<double>(*looked_s);
     const model::WearState& wear = *each.wear;
     const auto known = [&](std::string_view of, double least, double hidden) {
       return moved(each, of) ? least : std::hypot(least, hidden);
     };
     width.push_back(
-        {*time_s, wear.edge_width,
+        {time_s, wear.edge_width,
          known("edge width", std::max(least_width, wear.flow_share / sensor::ReferencePriors::volume_per_width),
                hidden_width)});
-    friction.push_back({*time_s, wear.friction_ratio - 1,
+    friction.push_back({time_s, wear.friction_ratio - 1,
                         wear.friction_ratio *
                             known("friction ratio", std::max(least_friction, wear.friction_share), hidden_friction)});
-    zero.push_back({*time_s, wear.position_zero_m,
+    zero.push_back({time_s, wear.position_zero_m,
                     known("position zero", sensor::ReferencePriors::closed_uncertainty_m, hidden_zero_m)});
-    last_s = std::max(last_s, *time_s);
+    last_s = std::max(last_s, time_s);
   }
-  if (last_s - *calibrated_s < day_s) return {};
+  if (last_s - calibrated_s < day_s) return {};
   return WearDrift{slope_of(width), slope_of(friction), slope_of(zero), width.size() - 1,
-                   (last_s - *calibrated_s) / day_s};
+                   (last_s - calibrated_s) / day_s};
 }
 
 std::string text_of(const WearDrift& drift) {

@@ -63,7 +63,4 @@ struct WearDrift {
 /// "in 30 days: edge width +0.4 +- 0.9 %, …"
 [[nodiscard]] std::string text_of(const WearDrift& drift);
 
-/// Seconds since 1970 of "2026-01-02T03:04:05Z"; nothing where the text is none such.
-[[nodiscard]] std::optional<double> seconds_of(const std::string& utc);
-
 }  // namespace spoolflow::monitor

@@ -107,8 +107,6 @@ struct MedianSpectrum::Parts {
     }
     points.clear();
   }
-
-  [[nodiscard]] double rate_Hz() const { return kept_s > 0 ? static_cast<double>(kept_samples) / kept_s : 0; }
 };
 
 MedianSpectrum::MedianSpectrum() : parts_(std::make_unique<Parts>()) {}
@@ -121,51 +119,52 @@ void MedianSpectrum::take(std::span<const double> time_s, std::span<const double
   for (std::size_t k = 0; k < value.size(); ++k) parts_->add(time_s[k], value[k]);
 }
 
-double MedianSpectrum::sample_rate_Hz() const {
-  return parts_->rate_Hz();
+Spectrum MedianSpectrum::median() const {
+  const auto& pieces = parts_->power;
+  if (pieces.size() < fewest_pieces) return {};
+  const double rate_Hz = static_cast<double>(parts_->kept_samples) / parts_->kept_s;
+  // Points of samples that are no whole fraction of them apart stand further or closer.
+  Spectrum out{rate_Hz, rate_Hz / (static_cast<double>(parts_->samples_of_point) * piece), std::vector<double>(bins)};
+  std::vector<double> one(pieces.size());
+  for (std::size_t k = 0; k < bins; ++k) {
+    for (std::size_t each = 0; each < pieces.size(); ++each) one[each] = pieces[each][k];
+    out.power[k] = numerics::median(one);
+  }
+  return out;
 }
 
-std::optional<SpectralLine> MedianSpectrum::line(double least_Hz, double most_Hz,
-                                                 std::span<const double> passed) const {
-  const auto& power = parts_->power;
-  if (power.size() < fewest_pieces) return {};
-  // Points of samples that are no whole fraction of them apart stand further or closer.
-  const double bin = parts_->rate_Hz() / (static_cast<double>(parts_->samples_of_point) * piece);
-  if (!(bin > 0)) return {};
-  std::vector<double> middle(bins), one;
-  for (std::size_t k = 0; k < bins; ++k) {
-    one.clear();
-    for (const std::vector<float>& each : power) one.push_back(each[k]);
-    middle[k] = numerics::median(one);
-  }
+std::optional<SpectralLine> Spectrum::line(double least_Hz, double most_Hz, std::span<const double> passed) const {
   std::optional<SpectralLine> best;
   double highest = line_over_neighbours;
-  for (std::size_t k = own_bins; k + own_bins < bins; ++k) {
-    const double frequency_Hz = static_cast<double>(k) * bin;
+  for (std::size_t k = own_bins; k + own_bins < power.size(); ++k) {
+    const double frequency_Hz = static_cast<double>(k) * bin_Hz;
     if (frequency_Hz < least_Hz || frequency_Hz > most_Hz) continue;
     if (std::ranges::any_of(passed, [&](double other) { return std::abs(other - frequency_Hz) < near_Hz; })) continue;
     std::vector<double> beside;
-    for (std::size_t j = k > neighbour_bins ? k - neighbour_bins : 1; j <= std::min(k + neighbour_bins, bins - 1); ++j)
-      if (j + own_bins <= k || j >= k + own_bins) beside.push_back(middle[j]);
-    const double over = middle[k] / std::max(numerics::median(beside), 1e-300);
+    for (std::size_t j = k > neighbour_bins ? k - neighbour_bins : 1;
+         j <= std::min(k + neighbour_bins, power.size() - 1); ++j)
+      if (j + own_bins <= k || j >= k + own_bins) beside.push_back(power[j]);
+    const double over = power[k] / std::max(numerics::median(beside), 1e-300);
     if (over < highest) continue;
     highest = over;
     // A Hann window's peak is a parabola of the power's logarithm.
-    const double left = std::log(middle[k - 1]), here = std::log(middle[k]), right = std::log(middle[k + 1]);
+    const double left = std::log(power[k - 1]), here = std::log(power[k]), right = std::log(power[k + 1]);
     const double curvature = left - 2 * here + right;
     const double beside_bins = curvature < 0 ? std::clamp(0.5 * (left - right) / curvature, -0.5, 0.5) : 0;
-    best = {frequency_Hz + beside_bins * bin, 4 * std::sqrt(middle[k]) / piece};
+    best = {frequency_Hz + beside_bins * bin_Hz, 4 * std::sqrt(power[k]) / piece};
   }
   return best;
 }
 
 std::vector<std::string> steady_line_findings(const SteadyLines& run, double position_noise_m) {
+  const Spectrum position = run.position.median();
+  const std::array current{run.current[0].median(), run.current[1].median()};
   // Dither, and where sampling folds its harmonics to. It also mixes with the pump's usual ripple.
   std::vector<double> passed;
-  for (std::size_t coil = 0; coil < run.current.size(); ++coil) {
-    const auto dither = run.current[coil].line(lowest_dither_Hz, highest_dither_Hz, {});
+  for (std::size_t coil = 0; coil < current.size(); ++coil) {
+    const auto dither = current[coil].line(lowest_dither_Hz, highest_dither_Hz, {});
     if (!dither || dither->amplitude < dither_share * run.largest_current_A[coil]) continue;
-    for (const double rate_Hz : {run.current[coil].sample_rate_Hz(), 1 / point_s}) {
+    for (const double rate_Hz : {current[coil].sample_rate_Hz, 1 / point_s}) {
       for (int harmonic = 1; harmonic <= most_harmonics; ++harmonic) {
         const double at_Hz = harmonic * dither->frequency_Hz;
         passed.push_back(std::abs(at_Hz - rate_Hz * std::round(at_Hz / rate_Hz)));
@@ -173,22 +172,21 @@ std::vector<std::string> steady_line_findings(const SteadyLines& run, double pos
     }
   }
   std::vector<std::string> out;
-  if (const auto shaken = run.position.line(lowest_Hz, highest_Hz, passed);
+  if (const auto shaken = position.line(lowest_Hz, highest_Hz, passed);
       shaken && shaken->amplitude > (passed.empty() ? 1 : beside_dither) * position_noise_m) {
     out.push_back(fmt::format(
         "position shakes at {:.1f} Hz by {:.2g} um all along: the machine's vibration, or the pump's ripple "
         "as sampling shows it; the band knows of it what [environment] declares: vibration_g, ripple_bar",
         shaken->frequency_Hz, units::mm_from_m(shaken->amplitude) * 1e3));
   }
-  for (std::size_t coil = 0; coil < run.current.size(); ++coil) {
+  for (std::size_t coil = 0; coil < current.size() && out.empty(); ++coil) {
     const double largest_A = run.largest_current_A[coil];
-    const auto beat = run.current[coil].line(lowest_Hz, highest_Hz, passed);
-    if (!beat || beat->amplitude < (passed.empty() ? beat_share : beat_beside_dither) * largest_A || !out.empty())
-      continue;
+    const auto beat = current[coil].line(lowest_Hz, highest_Hz, passed);
+    if (!beat || beat->amplitude < (passed.empty() ? beat_share : beat_beside_dither) * largest_A) continue;
     out.push_back(fmt::format(
         "current beats at {:.1f} Hz by {:.2g} mA all along while the position does not: its PWM is sampled at "
-        "instants; "
-        "average over a period or sample in step with it, or declare [environment] pwm_ripple_percent = {:.2g}",
+        "instants; average "
+        "over a period or sample in step with it, or declare [environment] pwm_ripple_percent = {:.2g}",
         beat->frequency_Hz, beat->amplitude * 1e3, 200 * beat->amplitude / largest_A));
   }
   return out;

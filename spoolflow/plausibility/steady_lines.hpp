@@ -17,6 +17,16 @@ struct SpectralLine {
   double frequency_Hz, amplitude;
 };
 
+/// Power in bins of equal width from 0 Hz on; empty: of too short a run.
+struct Spectrum {
+  double sample_rate_Hz = 0, bin_Hz = 0;
+  std::vector<double> power{};
+
+  /// The line between these frequencies [Hz] that stands highest over its neighbours, if by `line_over_neighbours` at
+  /// least. Near `passed` [Hz] none is looked for.
+  [[nodiscard]] std::optional<SpectralLine> line(double least_Hz, double most_Hz, std::span<const double> passed) const;
+};
+
 /// The median spectrum of a signal over pieces of four seconds, in bounded memory: what does not go on in half of them
 /// does not show.
 class MedianSpectrum {
@@ -30,11 +40,8 @@ class MedianSpectrum {
   /// more than 4 ms apart say nothing.
   void take(std::span<const double> time_s, std::span<const double> value);
 
-  /// The line between these frequencies [Hz] that stands highest over its neighbours, if by `line_over_neighbours` at
-  /// least. Near `passed` [Hz] none is looked for. Empty also of a run of fewer than eight pieces.
-  [[nodiscard]] std::optional<SpectralLine> line(double least_Hz, double most_Hz, std::span<const double> passed) const;
-  /// Samples a second; 0: not known.
-  [[nodiscard]] double sample_rate_Hz() const;
+  /// Empty of a run of fewer than eight pieces.
+  [[nodiscard]] Spectrum median() const;
 
  private:
   struct Parts;

@@ -56,6 +56,19 @@ std::string TomlTable::text(std::string_view key) const {
   return *value;
 }
 
+std::optional<std::vector<std::string>> TomlTable::list_of_texts(std::string_view key) const {
+  const toml::node* const node = table.get(key);
+  const toml::array* const list = node == nullptr ? nullptr : node->as_array();
+  if (list == nullptr) return std::nullopt;
+  std::vector<std::string> out;
+  for (const toml::node& each : *list) {
+    auto value = each.value_exact<std::string>();
+    if (!value) return std::nullopt;
+    out.push_back(std::move(*value));
+  }
+  return out;
+}
+
 std::optional<double> TomlTable::optional_number(std::string_view key) const {
   const toml::node* node = table.get(key);
   if (node == nullptr) return std::nullopt;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <toml++/toml.h>
 
@@ -27,6 +28,8 @@ struct TomlTable {
   /// Throw RecordingError where the key is missing (the required ones), or its value is of another type.
   [[nodiscard]] std::string text(std::string_view key) const;
   [[nodiscard]] std::optional<std::string> optional_text(std::string_view key) const;
+  /// Nothing where the key is missing, or its value is no list of texts alone.
+  [[nodiscard]] std::optional<std::vector<std::string>> list_of_texts(std::string_view key) const;
   [[nodiscard]] double number(std::string_view key) const;
   [[nodiscard]] std::optional<double> optional_number(std::string_view key) const;
   /// As number(), and above zero.

@@ -196,10 +196,6 @@ constexpr bool clearly(T value, T variance, T limit) {
   return value > limit && squared(value) > squared(T(ReferencePriors::finding_deviations)) * variance;
 }
 
-}  // namespace detail
-
-namespace detail {
-
 /// What all volumes have in common where no seal leaks: the filter's, given that leakage is none.
 template <class T>
 struct CommonLevel {

@@ -60,7 +60,7 @@ TEST(SteadyLines, AMachineThatShakesItsValveIsNamedWithFrequencyAndAmplitudeAtAn
     const SteadyLines seen = run(rate_Hz, shaken, no_line);
     EXPECT_THAT(steady_line_findings(seen, noise_m), ElementsAre(HasSubstr("position shakes at 35.2 Hz by")))
         << rate_Hz;
-    const auto line = seen.position.line(15, 120, {});
+    const auto line = seen.position.median().line(15, 120, {});
     ASSERT_TRUE(line) << rate_Hz;
     EXPECT_NEAR(line->amplitude, 2e-6, 0.4e-6) << rate_Hz;
   }
@@ -92,7 +92,7 @@ TEST(SteadyLines, OfARunOfAnHourAreThoseOfAllItsTime) {
     }
     spectrum.take(time_s, position_m);
   }
-  const auto line = spectrum.line(15, 120, {});
+  const auto line = spectrum.median().line(15, 120, {});
   ASSERT_TRUE(line);
   EXPECT_NEAR(line->frequency_Hz, 35.2, 0.05);
 }

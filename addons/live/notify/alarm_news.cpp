@@ -159,8 +159,8 @@ std::string text_of(const GatheredNews& gathered, const std::string& site) {
     const Alarm& alarm = one.alarm;
     out += fmt::format("\n{}: {}, since {}{}\n", name(one.kind), phrase(alarm), utc(alarm.raised_ms),
                        alarm.gone_ms == 0 ? "" : ", gone " + utc(alarm.gone_ms));
-    const AlarmWords* const told = words_for(alarm.cause);
-    if (told != nullptr) out += fmt::format("{}\n{}\n", told->meaning, told->remedy);
+    const AlarmWords* const known = words_for(alarm.cause);
+    if (known != nullptr) out += fmt::format("{}\n{}\n", known->meaning, known->remedy);
     out += fmt::format("Seen: {}\n", alarm.text);
   }
   if (gathered.left_out() > 0) out += fmt::format("\n{} earlier ones are left out here.\n", gathered.left_out());

@@ -13,19 +13,25 @@ using media::plain;
 constexpr double longest_shelf_h = 168;
 constexpr std::size_t longest_comment = 500;
 
+/// A member of a JSON object; null where the body is none or has none of that name.
+Json member(std::string_view body, const char* name) {
+  const Json asked = Json::parse(body, nullptr, false);
+  return asked.is_object() ? asked.value(name, Json()) : Json();
+}
+
 /// A number > 0 of hours, at most a week.
 std::optional<double> hours_asked(std::string_view body) {
-  const Json asked = Json::parse(body, nullptr, false);
-  if (!asked.is_object() || !asked.contains("hours") || !asked["hours"].is_number()) return std::nullopt;
-  const double hours = asked["hours"].get<double>();
+  const Json asked = member(body, "hours");
+  if (!asked.is_number()) return std::nullopt;
+  const auto hours = asked.get<double>();
   return hours > 0 && hours <= longest_shelf_h ? std::optional(hours) : std::nullopt;
 }
 
 /// On one line, without blanks at its ends.
 std::optional<std::string> comment_asked(std::string_view body) {
-  const Json asked = Json::parse(body, nullptr, false);
-  if (!asked.is_object() || !asked.contains("text") || !asked["text"].is_string()) return std::nullopt;
-  std::string text = asked["text"].get<std::string>();
+  const Json asked = member(body, "text");
+  if (!asked.is_string()) return std::nullopt;
+  auto text = asked.get<std::string>();
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
   const std::size_t first = text.find_first_not_of(' ');

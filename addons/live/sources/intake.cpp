@@ -10,6 +10,11 @@ std::int64_t steady_ns() {
       .count();
 }
 
+std::int64_t wall_ms() {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
 void Intake::append(SampleBlock&& block) {
   block.counted = counters();
   waiting_ += block.samples.size();

@@ -52,5 +52,7 @@ class Intake {
 
 /// Nanoseconds of the steady clock.
 [[nodiscard]] std::int64_t steady_ns();
+/// Milliseconds since 1970-01-01 UTC.
+[[nodiscard]] std::int64_t wall_ms();
 
 }  // namespace spoolflow::live

@@ -116,9 +116,7 @@ void UdpReceiver::note_unknown(const std::string& valve, const std::string& host
   std::string shown = valve;
   std::replace_if(
       shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  const std::int64_t now_ms =
-      std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::system_clock::now().time_since_epoch())
-          .count();
+  const std::int64_t now_ms = wall_ms();
   const std::lock_guard lock(unknown_mutex_);
   auto same = std::find_if(unknown_.begin(), unknown_.end(),
                            [&](const UnknownSender& one) { return one.valve == shown && one.host == host; });

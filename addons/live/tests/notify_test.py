@@ -54,8 +54,8 @@ class Hook(http.server.BaseHTTPRequestHandler):
 
 def news(*fields):
     """Of each message what it says of silent valves; what else a valve without sound samples raises is left out."""
-    told = [[tuple(one[field] for field in fields) for one in message["alarms"] if one["cause"] == "no_samples"] for message in Hook.got]
-    return [one for one in told if one]
+    reported = [[tuple(one[field] for field in fields) for one in message["alarms"] if one["cause"] == "no_samples"] for message in Hook.got]
+    return [one for one in reported if one]
 
 
 class Letters:
@@ -171,7 +171,7 @@ try:
         times = {one["valve"]: one["times"] for one in asked("/api/v1/alarms")["alarms"] if one["cause"] == "no_samples"}
         assert times["press_1"] == 2, times  # it was followed, on the shelf
 
-    # a new start tells nothing again; shelf and comment are there; at the end of its time the alarm comes back
+    # a new start sends nothing again; shelf and comment are there; at the end of its time the alarm comes back
     with Live(command, folder, "site.toml") as live:
         again, = (one for one in asked("/api/v1/alarms")["alarms"] if one["id"] == number)
         assert again["state"] == "shelved", again

@@ -1,15 +1,9 @@
 #include "addons/live/valve/events.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <iterator>
 
 namespace spoolflow::live {
-
-std::int64_t wall_ms() {
-  return std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 void Events::add(Event event) {
   const std::lock_guard lock(mutex_);

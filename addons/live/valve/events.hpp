@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "addons/live/history/store.hpp"
+#include "addons/live/sources/intake.hpp"  // wall_ms
 
 namespace spoolflow::live {
 
@@ -25,8 +26,5 @@ class Events {
   mutable std::mutex mutex_;
   std::deque<Event> events_;
 };
-
-/// Milliseconds since 1970-01-01 UTC.
-[[nodiscard]] std::int64_t wall_ms();
 
 }  // namespace spoolflow::live

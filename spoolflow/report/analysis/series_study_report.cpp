@@ -10,6 +10,7 @@
 #include "spoolflow/report/page/html_page.hpp"
 #include "spoolflow/report/text/html_text.hpp"
 #include "spoolflow/report/text/number_text.hpp"
+#include "spoolflow/report/text/text.hpp"
 
 namespace spoolflow::report {
 namespace {
@@ -101,9 +102,8 @@ const char* known_by_name(KnownBy by) {
   return names[static_cast<std::size_t>(by)];
 }
 
-const char* series_run_name(std::size_t run) {
-  static constexpr std::array<const char*, analysis::series_runs> names{"slow ramps", "duty", "dithered duty"};
-  return names[run];
+std::string series_run_name(std::size_t run) {
+  return spaced(analysis::series_run_names[run]);
 }
 
 std::string series_verdict(const SeriesStudy& study) {

@@ -9,7 +9,7 @@ namespace spoolflow::report {
 
 /// In words, for tables and legends.
 [[nodiscard]] const char* known_by_name(analysis::KnownBy by);
-[[nodiscard]] const char* series_run_name(std::size_t run);
+[[nodiscard]] std::string series_run_name(std::size_t run);
 
 /// What the minute buys over the series, in one sentence.
 [[nodiscard]] std::string series_verdict(const analysis::SeriesStudy& study);

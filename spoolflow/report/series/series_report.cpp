@@ -18,11 +18,6 @@ using calibration::SeriesParameter;
 using calibration::SeriesUnit;
 using calibration::UnitParameter;
 
-std::string readable(std::string name) {
-  std::ranges::replace(name, '_', ' ');
-  return name;
-}
-
 double scale_of(const std::string& unit) {
   return calibration::written_unit(unit).scale;
 }
@@ -43,7 +38,7 @@ bool at_edge(const SeriesUnit& unit) {
 std::vector<std::string> parameters_that(const Series& series, bool (*asks)(const SeriesParameter&)) {
   std::vector<std::string> out;
   for (const SeriesParameter& parameter : series.parameters) {
-    if (asks(parameter)) out.push_back(readable(parameter.name));
+    if (asks(parameter)) out.push_back(spaced(parameter.name));
   }
   return out;
 }
@@ -86,7 +81,7 @@ HtmlTable spread_table(const Series& series) {
   for (const SeriesParameter& each : series.parameters) {
     const double scale = scale_of(each.unit);
     constexpr double of_95 = 1.96, units = 100;
-    table.row({html_text(readable(each.name)), unit_of(each.unit), two_digits(scale * each.tolerance),
+    table.row({html_text(spaced(each.name)), unit_of(each.unit), two_digits(scale * each.tolerance),
                known(scale * each.spread, two_digits), known(scale * each.mean, signed_two_digits),
                known(of_95 * scale * each.mean_uncertainty, two_digits),
                known(each.capability, [](double value) { return fixed(value, 2); }),
@@ -101,7 +96,7 @@ HtmlTable spread_table(const Series& series) {
 /// All units of one direction: deviations from the type over its tolerance, beside serial numbers.
 Panel panel_of(const Series& series, std::size_t k) {
   const SeriesParameter& about = series.parameters[k];
-  Panel out{.title = fmt::format("{} [{}]", readable(about.name), unit_of(about.unit)), .height_px = 110};
+  Panel out{.title = fmt::format("{} [{}]", spaced(about.name), unit_of(about.unit)), .height_px = 110};
   const double scale = scale_of(about.unit), limit = calibration::capability_deviations * scale * about.tolerance;
   Mark of_type{.shape = Shape::dots, .tone = "observer", .name = "unit of the type", .width_px = 4};
   Mark foreign{.shape = Shape::dots, .tone = "c", .name = "refused", .width_px = 5};
@@ -167,7 +162,7 @@ std::string deviations_text(const SeriesUnit& unit) {
                     [](const auto* a, const auto* b) { return std::abs(a->deviations) > std::abs(b->deviations); });
   std::string out;
   for (const UnitParameter* each : far) {
-    out += fmt::format("{}{} {} {} ({} standard deviations)", out.empty() ? "" : ", ", readable(each->name),
+    out += fmt::format("{}{} {} {} ({} standard deviations)", out.empty() ? "" : ", ", spaced(each->name),
                        signed_two_digits(scale_of(each->unit) * each->value), unit_of(each->unit),
                        fixed(std::abs(each->deviations), 1));
   }

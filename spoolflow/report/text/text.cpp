@@ -1,5 +1,7 @@
 #include "spoolflow/report/text/text.hpp"
 
+#include <algorithm>
+
 namespace spoolflow::report {
 
 Text::Text(const QuantityText& quantity) : open_([quantity](const ReaderUnits& units) { return quantity.in(units); }) {}
@@ -11,6 +13,11 @@ Text& Text::operator+=(const Text& more) {
     *this = phrase("{}{}", *this, more);
   }
   return *this;
+}
+
+std::string spaced(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
 }
 
 Text unit_text(units::Kind kind) {

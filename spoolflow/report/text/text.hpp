@@ -36,6 +36,9 @@ class Text {
   WrittenIn open_;  ///< instead of `plain_`
 };
 
+/// "slow_ramps" as "slow ramps".
+[[nodiscard]] std::string spaced(std::string name);
+
 /// The unit alone: "bar".
 [[nodiscard]] Text unit_text(units::Kind kind);
 
