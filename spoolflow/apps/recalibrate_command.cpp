@@ -13,37 +13,11 @@
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/apps/work/readable_model.hpp"
-#include "spoolflow/calibration/references/recalibrate.hpp"
+#include "spoolflow/apps/work/recalibration.hpp"
 #include "spoolflow/monitor/adaptation.hpp"
-#include "spoolflow/recording/reader.hpp"
 
 namespace spoolflow::apps {
 namespace {
-
-using recording::Channel;
-
-std::vector<recording::Recording> recordings_of(const RecalibrateArguments& arguments, double stroke_m,
-                                                std::vector<std::filesystem::path>& inputs) {
-  recording::ReadOptions options;
-  options.required = {Channel::time, Channel::current, Channel::position};
-  options.optional = {Channel::voltage, Channel::oil_temperature, Channel::pressure_difference, Channel::flow_reference,
-                      Channel::test};
-  options.stroke_m = stroke_m;
-  if (!arguments.channels.empty()) {
-    options.channels = recording::read_channel_map(arguments.channels);
-    inputs.emplace_back(arguments.channels);
-  }
-  std::vector<recording::Recording> out;
-  for (const std::string& file : arguments.recordings) {
-    inputs.emplace_back(file);
-    out.push_back(recording::read_recording(file, options));
-    constexpr std::size_t least_samples = 100;
-    if (out.back().size() < least_samples)
-      throw std::invalid_argument(
-          fmt::format("{}: has {} samples; give minutes of the valve's operation", file, out.back().size()));
-  }
-  return out;
-}
 
 /// What was done, and the states that the model can go back to.
 void print_findings(const calibration::RecalibratedValve& valve) {
@@ -64,17 +38,15 @@ model::Adaptation how_from(const RecalibrateArguments& arguments) {
 
 calibration::RecalibratedValve moved_on(const RecalibrateArguments& arguments, const model::Model& model,
                                         std::vector<std::filesystem::path>& inputs) {
+  MachineFiles from{{arguments.recordings.begin(), arguments.recordings.end()}, {}, arguments.references};
   inputs.emplace_back(arguments.references);
-  const std::vector<recording::Reference> references = recording::read_references(arguments.references);
-  Progress progress("recalibrating", arguments.quiet);
-  const std::vector<recording::Recording> recordings = recordings_of(arguments, model.valve.stroke_m, inputs);
-  calibration::RecalibratedValve out = calibration::recalibrate(model, recordings, references, how_from(arguments));
-  for (const recording::Recording& recording : recordings) {
-    out.model.provenance.inputs.push_back({std::string(model::adaptation_protocol), recording.file.filename().string(),
-                                           model::sha256_of_file(recording.file), recording.size(),
-                                           recording.resampled});
+  inputs.insert(inputs.end(), from.recordings.begin(), from.recordings.end());
+  if (!arguments.channels.empty()) {
+    from.channels = recording::read_channel_map(arguments.channels);
+    inputs.emplace_back(arguments.channels);
   }
-  return out;
+  Progress progress("recalibrating", arguments.quiet);
+  return recalibrated(model, from, how_from(arguments));
 }
 
 void require_one_way(const RecalibrateArguments& arguments) {

@@ -14,11 +14,13 @@
 #include "addons/python/module/page_text.hpp"
 #include "addons/python/module/signal_check.hpp"
 #include "spoolflow/apps/work/readable_model.hpp"
+#include "spoolflow/apps/work/recalibration.hpp"
 #include "spoolflow/calibration/calibrate.hpp"
 #include "spoolflow/calibration/environment.hpp"
 #include "spoolflow/calibration/type/calibrate_unit.hpp"
 #include "spoolflow/calibration/type/several_units.hpp"
 #include "spoolflow/calibration/type/type_model.hpp"
+#include "spoolflow/monitor/adaptation.hpp"
 #include "spoolflow/recording/environment.hpp"
 #include "spoolflow/report/validation/validation_report.hpp"
 
@@ -104,6 +106,23 @@ py::tuple calibrate_unit(const Path& file, bool allow_outside, const Path& type_
       .tuple();
 }
 
+model::Adaptation how_from(const SharedModel& model) {
+  return {SPOOLFLOW_VERSION, model::creation_time(), model::sha256_of_text(model->text), {}, {}};
+}
+
+py::tuple with_findings(const calibration::RecalibratedValve& valve) {
+  return Made{kept(valve.model), {}, valve.findings}.tuple();
+}
+
+/// By what the machine knows of its oil; the notes are what was changed or stays.
+py::tuple recalibrate(const SharedModel& model, const std::vector<Path>& recordings,
+                      const std::optional<Path>& channels, const Path& references) {
+  return with_findings(at_work([&](SignalCheck&) {
+    const recording::ChannelMap map = channels ? recording::read_channel_map(*channels) : recording::ChannelMap{};
+    return apps::recalibrated(model->model, {recordings, map, references}, how_from(model));
+  }));
+}
+
 /// Recordings that the campaign names, or that of a unit of the type in that file.
 std::vector<Path> campaign_files(const Path& file, const std::optional<Path>& type_file) {
   const recording::Campaign campaign =
@@ -129,6 +148,14 @@ SharedModel in_environment(const SharedModel& model, const std::string& environm
 void add_calibrations(py::module_& module) {
   module.def("calibrate", &calibrate);
   module.def("calibrate_unit", &calibrate_unit);
+  module.def("recalibrate", &recalibrate);
+  module.def("gone_back", [](const SharedModel& model, std::size_t state) {
+    return kept(calibration::gone_back(model->model, state, how_from(model)).model);
+  });
+  module.def("drift", [](const SharedModel& model) -> std::optional<std::string> {
+    const auto drift = monitor::wear_drift(model->model.provenance);
+    return drift ? std::optional(monitor::text_of(*drift)) : std::nullopt;
+  });
   module.def("campaign_files", &campaign_files);
   module.def("in_environment", &in_environment);
 }

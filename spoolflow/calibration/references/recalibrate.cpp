@@ -31,6 +31,19 @@ void require_unit(const model::Model& model) {
   }
 }
 
+void require_their_recordings(const std::vector<recording::Recording>& recordings,
+                              const std::vector<recording::Reference>& references) {
+  std::vector<std::string> files;
+  for (const recording::Recording& recording : recordings) files.push_back(recording.file.filename().string());
+  for (const recording::Reference& reference : references) {
+    if (reference.recording.empty() || std::ranges::find(files, reference.recording) != files.end()) continue;
+    throw CalibrationError(
+        fmt::format("{}: {} is of the recording {}, and given are {}; give it too, correct "
+                    "recording = \"...\", or leave the reference out",
+                    reference.place, reference.name, reference.recording, fmt::join(files, ", ")));
+  }
+}
+
 MachineEvidence evidence_of(const model::Model& model, const std::vector<recording::Recording>& recordings,
                             const std::vector<recording::Reference>& references) {
   MachineEvidence out{model, {}, references, {}};
@@ -166,6 +179,7 @@ void put_log(model::Adaptation how, RecalibratedValve& out) {
 RecalibratedValve recalibrate(const model::Model& model, const std::vector<recording::Recording>& recordings,
                               const std::vector<recording::Reference>& references, model::Adaptation how) {
   require_unit(model);
+  require_their_recordings(recordings, references);
   RecalibratedValve out{model, wear_of(model), wear_of(model), {}};
   const MachineEvidence evidence = evidence_of(model, recordings, references);
   for (const recording::Recording& recording : recordings) how.files.push_back(recording.file.filename().string());

@@ -21,8 +21,8 @@ struct RecalibratedValve {
 /// The model moved on: position zero, friction in operation and the edges' width, each where the evidence pays for it,
 /// else as it was to the last bit. `how` has tool, time and the model file's checksum; the rest is filled in and put at
 /// the end of the provenance. Throws RecordingError or CalibrationError: a model of a whole valve, of a type, or
-/// without an observer; references that contradict forces or each other, with the likely cause; a change beyond what is
-/// moved.
+/// without an observer; a reference of a recording that is not given; references that contradict forces or each other,
+/// with the likely cause; a change beyond what is moved.
 [[nodiscard]] RecalibratedValve recalibrate(const model::Model& model,
                                             const std::vector<recording::Recording>& recordings,
                                             const std::vector<recording::Reference>& references, model::Adaptation how);

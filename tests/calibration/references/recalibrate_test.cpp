@@ -176,5 +176,13 @@ TEST(Recalibrate, NamesAClosedReferenceWhoseValveNeverCloses) {
   EXPECT_THAT(refusal(recordings, {meter(), closed()}), HasSubstr("never stands closed"));
 }
 
+TEST(Recalibrate, NamesAReferenceWhoseRecordingIsNotGiven) {
+  Reference elsewhere = meter();
+  elsewhere.recording = "tuesday.csv";
+  EXPECT_THAT(
+      refusal(fresh_strokes(), {closed(), elsewhere}),
+      HasSubstr("meter is of the recording tuesday.csv, and given are strokes_at_30_bar.csv, strokes_at_45_bar"));
+}
+
 }  // namespace
 }  // namespace spoolflow::calibration

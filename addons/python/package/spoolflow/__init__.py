@@ -22,6 +22,7 @@ from .estimates import Answer, Estimate, Status
 from .exports import export_cpp, export_fmu, export_parameters
 from .figures import Figures
 from .models import Model, Sensor, load_model
+from .recalibrations import recalibrate
 from .recordings import Recording, inspect, read_recording
 from .work import (Analysis, Condition, DitherAdvice, Simulation, Validation, analyse, estimate_many, monitor, simulate,
                    validate)
@@ -29,6 +30,6 @@ from .work import (Analysis, Condition, DitherAdvice, Simulation, Validation, an
 __all__ = [
     "Analysis", "Answer", "Condition", "DitherAdvice", "Error", "Estimate", "Figures", "FileMissing", "Model", "Recording", "Sensor",
     "SimulatedCampaign", "Simulation", "Status", "Validation", "__version__", "analyse", "calibrate", "campaign",
-    "estimate_many", "export_cpp", "export_fmu", "export_parameters", "inspect", "load_model", "monitor", "read_recording",
+    "estimate_many", "export_cpp", "export_fmu", "export_parameters", "inspect", "load_model", "monitor", "read_recording", "recalibrate",
     "simulate", "simulate_campaign", "validate",
 ]

@@ -125,6 +125,24 @@ class Model:
         section: Optional[Dict[str, Any]] = json.loads(self._kept.text).get("type")
         return section
 
+    @property
+    def wear_states(self) -> List[Dict[str, float]]:
+        """Where references have moved the model to (docs/references.md), oldest first; the first is as calibrated: `edge_width` as a
+        share more, `friction_ratio`, `position_zero_m`, and the standard uncertainties `flow_share` and `friction_share`."""
+        as_calibrated = {"edge_width": 0.0, "friction_ratio": 1.0, "position_zero_m": 0.0, "flow_share": 0.0, "friction_share": 0.0}
+        return [as_calibrated, *(each["wear"] for each in self.provenance.get("adaptations", []) if "wear" in each)]
+
+    @property
+    def drift(self) -> Optional[str]:
+        """How fast references move it, in 30 days with its 95 % band; None where none looked, or all within a day of calibration."""
+        return _native.drift(self._kept)
+
+    def gone_back(self, state: int) -> "Model":
+        """The model as it was in an earlier one of `wear_states`, 0 for as calibrated; the log goes on."""
+        if state < 0:
+            raise _native.Error(f"state: Value {state} is below 0, as calibrated")
+        return Model(_native.gone_back(self._kept, state))
+
     def in_environment(self, environment: Environment = "machine", **keys: float) -> "Model":
         """The model whose band holds what that machine leaves open (docs/environment.md): "machine", "bench", or a TOML file; or
         single half-widths: `model.in_environment(vibration_g=1.0, viscosity_percent=50)`."""

@@ -1,0 +1,23 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "spoolflow/calibration/references/recalibrate.hpp"
+#include "spoolflow/recording/channel_map.hpp"
+
+namespace spoolflow::apps {
+
+/// What a machine knows of its oil, as files.
+struct MachineFiles {
+  std::vector<std::filesystem::path> recordings;  ///< of the valve at work, oldest first
+  recording::ChannelMap channels;
+  std::filesystem::path references;  ///< tables [[reference]]
+};
+
+/// calibration::recalibrate() from those files, which stand among the inputs of the model's provenance afterwards.
+/// Throws what it throws, and std::invalid_argument for a recording that is too short.
+[[nodiscard]] calibration::RecalibratedValve recalibrated(const model::Model& model, const MachineFiles& from,
+                                                          model::Adaptation how);
+
+}  // namespace spoolflow::apps
