@@ -28,7 +28,7 @@ const fs::path root = SPOOLFLOW_ROOT;
 
 std::vector<Page> all_pages() {
   std::vector<Page> pages = pages_below(root / "docs");
-  for (const char* other : {"README.md", "CHANGELOG.md", "CONTRIBUTING.md", "examples/README.md"})
+  for (const char* other : {"README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md", "examples/README.md"})
     pages.push_back(read_page(root / other));
   return pages;
 }
