@@ -33,15 +33,21 @@ def round_tables(node):
             node[key] = rounded(value)
 
 
-model = json.load(open(sys.argv[1], encoding="utf-8"))
-evidence = model["evidence"]
-for key, value in evidence.items():
-    if isinstance(value, list):
-        evidence[key] = [shortened(each) for each in value[:1]]
-sensitivity = evidence["sensitivity"]
-for key, value in sensitivity.items():
-    sensitivity[key] = value[:4] if key.startswith("flow") else value[:2]
-model["provenance"]["inputs"] = model["provenance"]["inputs"][:1]
-for part in ("condensed", "observer"):
-    round_tables(model[part])
-json.dump(model, open(sys.argv[2], "w", encoding="utf-8"), separators=(",", ":"))
+def small(model):
+    for direction in (model, model.get("p_to_a", {})):
+        evidence = direction.get("evidence", {})
+        for key, value in evidence.items():
+            if isinstance(value, list):
+                evidence[key] = [shortened(each) for each in value[:1]]
+        sensitivity = evidence.get("sensitivity", {})
+        for key, value in sensitivity.items():
+            sensitivity[key] = value[:4] if key.startswith("flow") else value[:2]
+        for part in ("condensed", "observer"):
+            round_tables(direction.get(part, {}))
+    model["provenance"]["inputs"] = model["provenance"]["inputs"][:1]
+    return model
+
+
+if __name__ == "__main__":
+    with open(sys.argv[1], encoding="utf-8") as source, open(sys.argv[2], "w", encoding="utf-8") as out:
+        json.dump(small(json.load(source)), out, separators=(",", ":"))
