@@ -2,11 +2,13 @@
 """SPDX 2.3 list, in JSON, of what built programs and modules hold and need.
 
 sbom.py -o OUT.json PROGRAM...
+sbom.py --check-headers BUILD
 
 Names, licences and Debian packages stand in the tables of NOTICE; versions are those of this machine's packages, of uPlot
 that of web/package.json. A library that a PROGRAM is linked with (the compiler's and the system's own aside) and that NOTICE
 does not name is an error: exit status 1, one line. SOURCE_DATE_EPOCH sets the time; the same programs on the same packages
-give the same bytes. Standard library only; needs dpkg-query and readelf.
+give the same bytes. `--check-headers` looks whether NOTICE names every package whose headers the objects of a build folder
+include, those of tests and benchmarks aside. Standard library only; needs dpkg-query and readelf, or ninja.
 """
 import datetime
 import hashlib
@@ -20,6 +22,7 @@ import urllib.parse
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SYSTEM = ("libc6", "libgcc-s1", "libstdc++6")
+SYSTEM_SOURCES = re.compile(r"(glibc|linux|gcc-\d+|llvm-toolchain-\d+|python3\.\d+)$")
 RELATION = {"headers": "STATIC_LINK", "shared": "DYNAMIC_LINK", "page": "CONTAINS"}
 
 
@@ -53,6 +56,28 @@ def owners_of(paths):
             names.setdefault(name, path)
     listed = subprocess.run(["dpkg-query", "--search", *names], capture_output=True, text=True).stdout
     return {names[path]: owner for owner, path in re.findall(r"^([^\s:,]+)(?::\w+)?: (/\S+)$", listed, re.M) if path in names}
+
+
+def sources_of(packages):
+    """Debian's source packages that these are of: libfmt9 and libfmt-dev are of one."""
+    asked = subprocess.run(["dpkg-query", "--show", "--showformat", "${source:Package}\n", *packages], capture_output=True, text=True)
+    return set(asked.stdout.split())
+
+
+def check_headers(build):
+    included = set()
+    for entry in output_of("ninja", "-C", build, "-t", "deps").split("\n\n"):
+        target, *paths = entry.split("\n")
+        if not re.match(r"(.*/)?(tests|bench|examples)/", target.split(":")[0]):
+            included.update(path.strip() for path in paths if path.strip().startswith("/usr/"))
+    owners = set(owners_of(included).values())
+    named = sources_of(row["package"] for row in components() if not row["package"].startswith("npm:"))
+    missing = sorted(source for source in sources_of(owners) - named if not SYSTEM_SOURCES.match(source))
+    if missing:
+        sys.exit(f"sbom: headers of {', '.join(missing)} are compiled in, which NOTICE does not name")
+    if not owners:
+        sys.exit(f"sbom: {build} knows of no headers: build it first")
+    print(f"headers of {len(owners)} packages, all named or the system's")
 
 
 def version_of(package):
@@ -112,6 +137,9 @@ def document(programs):
 
 
 def main(arguments):
+    if len(arguments) == 2 and arguments[0] == "--check-headers":
+        check_headers(arguments[1])
+        return
     if len(arguments) < 3 or arguments[0] != "-o":
         sys.exit(__doc__)
     text = json.dumps(document(arguments[2:]), indent=1) + "\n"

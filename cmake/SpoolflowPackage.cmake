@@ -20,8 +20,25 @@ endforeach()
 add_custom_command(OUTPUT ${made}/spoolflow.1.gz COMMAND gzip -9n < spoolflow.1 > spoolflow.1.gz DEPENDS ${made}/spoolflow.1
                    WORKING_DIRECTORY ${made})
 add_custom_target(spoolflow_pages ALL DEPENDS ${made}/spoolflow.1.gz ${made}/spoolflow.bash)
+# What the programs hold and need, as an SPDX list, where Debian's tools can say it.
+find_program(SPOOLFLOW_DPKG_QUERY dpkg-query)
+find_package(Python3 QUIET COMPONENTS Interpreter)
+if(SPOOLFLOW_DPKG_QUERY AND Python3_EXECUTABLE AND NOT CMAKE_CROSSCOMPILING)
+  add_custom_command(
+    OUTPUT ${made}/spoolflow.spdx.json
+    COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/ci/sbom.py -o ${made}/spoolflow.spdx.json "$<TARGET_FILE:spoolflow>"
+            "$<$<TARGET_EXISTS:spoolflow_live>:$<TARGET_FILE:spoolflow_live>>"
+            "$<$<TARGET_EXISTS:spoolflow_fleet>:$<TARGET_FILE:spoolflow_fleet>>"
+    DEPENDS spoolflow_programs ${PROJECT_SOURCE_DIR}/ci/sbom.py ${PROJECT_SOURCE_DIR}/NOTICE
+    COMMAND_EXPAND_LISTS)
+  add_custom_target(spoolflow_sbom ALL DEPENDS ${made}/spoolflow.spdx.json)
+  install(FILES ${made}/spoolflow.spdx.json DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/spoolflow COMPONENT tool)
+endif()
 # All that is installed, for those who build no tests.
 add_custom_target(installable DEPENDS spoolflow_programs spoolflow_pages spoolflow_c_shared spoolflow_c_static)
+if(TARGET spoolflow_sbom)
+  add_dependencies(installable spoolflow_sbom)
+endif()
 if(SPOOLFLOW_PYTHON_INTERPRETER)
   add_dependencies(installable addons_python_module)
 endif()

@@ -25,5 +25,6 @@ x86_64-w64-mingw32-g++-posix -shared -s -static ./*.o -o "$made/bin/spoolflow.dl
 cp "$root/spoolflow/export/c_interface/spoolflow.h" "$made/include/"
 cp "$root/examples/c_interface/estimate.c" "$made/examples/"
 cp "$root/LICENSE" "$made/LICENSE.txt"
+cp "$root/NOTICE" "$made/NOTICE.txt"
 rm -f "$out"
 cmake -E tar cf "$out" --format=zip "$name"

@@ -31,7 +31,7 @@ def _version():
 def _metadata():
     return (f"Metadata-Version: 2.1\nName: {NAME}\nVersion: {_version()}\n"
             "Summary: Soft flow-rate sensor for solenoid-operated spool valves\n"
-            "License: Apache-2.0\nLicense-File: LICENSE\nKeywords: hydraulics,spool valve,flow rate,soft sensor\n"
+            "License: Apache-2.0\nLicense-File: LICENSE\nLicense-File: NOTICE\nKeywords: hydraulics,spool valve,flow rate,soft sensor\n"
             "Classifier: License :: OSI Approved :: Apache Software License\nClassifier: Operating System :: POSIX :: Linux\n"
             "Classifier: Programming Language :: C++\nClassifier: Topic :: Scientific/Engineering\n"
             + "".join(f"Classifier: Programming Language :: Python :: 3.{minor}\n" for minor in range(9, 14)) +
@@ -149,7 +149,8 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     else:
         files[f"{NAME}/{module}"] = (built / module).read_bytes()
         platform = re.sub("[-.]", "_", sysconfig.get_platform())
-    files[f"{info}/LICENSE"] = (ROOT / "LICENSE").read_bytes()
+    for name in ("LICENSE", "NOTICE"):
+        files[f"{info}/{name}"] = (ROOT / name).read_bytes()
     files[f"{info}/METADATA"] = _metadata().encode()
     files[f"{info}/WHEEL"] = (f"Wheel-Version: 1.0\nGenerator: {NAME}\nRoot-Is-Purelib: false\nTag: {_tag(platform)}\n").encode()
     record = "".join(f"{name},{_digest(content)},{len(content)}\n" for name, content in files.items())

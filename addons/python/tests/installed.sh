@@ -21,7 +21,7 @@ assert wheel.startswith(f"spoolflow-{about.version}-cp{sys.version_info[0]}{sys.
 fields = about.metadata
 assert fields["License"] == "Apache-2.0" and fields["Summary"] and fields["Requires-Python"] == ">=3.9" and fields["Description-Content-Type"], fields
 texts = {pathlib.Path(str(file)).name: file.locate().read_text(errors="replace") for file in about.files if "dist-info" in str(file)}
-assert "Apache License" in texts["LICENSE"]
+assert "Apache License" in texts["LICENSE"] and "pybind11" in texts["NOTICE"]
 module, = (site / "spoolflow").glob("_native*.so")
 linked = re.findall(r"^\s*(\S+) => (\S+)", subprocess.run(["ldd", module], check=True, stdout=subprocess.PIPE, universal_newlines=True).stdout, re.M)
 own = [name for name, path in linked if str(site) in str(pathlib.Path(path).resolve())]
