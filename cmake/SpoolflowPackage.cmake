@@ -107,6 +107,8 @@ foreach(package IN LISTS packages)
           DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${SPOOLFLOW_PACKAGE} COMPONENT ${component})
 endforeach()
 
+install(FILES CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/spoolflow COMPONENT tool)
+
 # cpack -G DEB
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME spoolflow)

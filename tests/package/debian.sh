@@ -15,7 +15,7 @@ holds() {
 holds_not() { if holds "$1" "$2"; then echo "$1 holds $2" && exit 1; fi; }
 dpkg-deb --field "$tool" Depends | grep -q 'libc6'
 dpkg-deb --field "$development" Depends | grep -q 'libspoolflow0 (= '
-for file in usr/bin/spoolflow usr/share/man/man1/spoolflow.1.gz usr/share/bash-completion/completions/spoolflow usr/share/doc/spoolflow/spoolflow.spdx.json; do
+for file in usr/bin/spoolflow usr/share/man/man1/spoolflow.1.gz usr/share/bash-completion/completions/spoolflow usr/share/doc/spoolflow/spoolflow.spdx.json usr/share/doc/spoolflow/CHANGELOG.md; do
   holds "$tool" $file
 done
 for file in spoolflow.h spoolflow/sensor/observer.hpp spoolflow.pc spoolflowConfig.cmake libspoolflow.a libspoolflow.so; do
