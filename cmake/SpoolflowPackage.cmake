@@ -1,5 +1,5 @@
 # What `cmake --install` puts where, and the Debian packages that `cpack` makes of it: the tool (component tool), the shared
-# library for programs that run with it (runtime), and what other programs build against (development).
+# library for programs that run with it (runtime), what other programs build against (development), the add-ons' programs (live, fleet).
 include(CMakePackageConfigHelpers)
 
 # Manual page and completion are made from the built command's own help; where it cannot run here, from that of this machine.
@@ -44,13 +44,7 @@ if(SPOOLFLOW_PYTHON_INTERPRETER)
 endif()
 
 # The tool.
-set(programs spoolflow)
-foreach(program IN ITEMS spoolflow_live spoolflow_fleet)
-  if(TARGET ${program})
-    list(APPEND programs ${program})
-  endif()
-endforeach()
-install(TARGETS ${programs} RUNTIME COMPONENT tool)
+install(TARGETS spoolflow RUNTIME COMPONENT tool)
 install(FILES ${made}/spoolflow.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tool)
 install(FILES ${made}/spoolflow.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME spoolflow
         COMPONENT tool)
@@ -72,7 +66,7 @@ install(DIRECTORY examples/c_interface DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/
 set(config ${CMAKE_INSTALL_LIBDIR}/cmake/spoolflow)
 install(EXPORT spoolflow NAMESPACE spoolflow:: FILE spoolflowTargets.cmake DESTINATION ${config} COMPONENT development)
 configure_package_config_file(cmake/spoolflowConfig.cmake.in ${made}/spoolflowConfig.cmake INSTALL_DESTINATION ${config})
-write_basic_package_version_file(${made}/spoolflowConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+write_basic_package_version_file(${made}/spoolflowConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 file(RELATIVE_PATH prefix_from_pkgconfig /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 configure_file(cmake/spoolflow.pc.in ${made}/spoolflow.pc @ONLY)
 install(FILES ${made}/spoolflowConfig.cmake ${made}/spoolflowConfigVersion.cmake DESTINATION ${config} COMPONENT development)
@@ -81,6 +75,13 @@ install(FILES ${made}/spoolflow.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
 # The Python package, where it is built; in a prefix of its own PYTHONPATH names the folder.
 set(packages tool:spoolflow runtime:libspoolflow${PROJECT_VERSION_MAJOR} development:libspoolflow-dev)
 set(components tool runtime development)
+foreach(program IN ITEMS live fleet)
+  if(TARGET spoolflow_${program})
+    install(TARGETS spoolflow_${program} RUNTIME COMPONENT ${program})
+    list(APPEND packages ${program}:spoolflow-${program})
+    list(APPEND components ${program})
+  endif()
+endforeach()
 if(SPOOLFLOW_PYTHON_INTERPRETER)
   list(APPEND packages python:python3-spoolflow)
   list(APPEND components python)
@@ -138,7 +139,13 @@ if(SPOOLFLOW_PYTHON_INTERPRETER)
       "python3 (>= 3.${SPOOLFLOW_PYTHON_MINOR}~), python3 (<< 3.${next}~), python3-numpy")  # the module is for this Python alone
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas, python3-matplotlib")
 endif()
+foreach(program IN ITEMS LIVE FLEET)
+  string(TOLOWER ${program} name)
+  set(CPACK_DEBIAN_${program}_PACKAGE_NAME spoolflow-${name})
+  set(CPACK_DEBIAN_${program}_PACKAGE_DEPENDS "spoolflow (= ${PROJECT_VERSION})")
+endforeach()
 set(CPACK_DEBIAN_COMPRESSION_TYPE gzip)
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/debian/same_times.cmake)
 include(CPack)
 cpack_add_component(tool DESCRIPTION "Soft flow-rate sensor for spool valves: the command
  Calibrates a valve from bench recordings, estimates its flow rate from coil
@@ -149,6 +156,16 @@ cpack_add_component(runtime DESCRIPTION "Soft flow-rate sensor for spool valves:
 cpack_add_component(development DESCRIPTION "Soft flow-rate sensor for spool valves: C library and C++ core
  spoolflow.h with shared and static library, the sensor's C++ headers, and the
  files by which CMake and pkg-config find them.")
+if(TARGET spoolflow_live)
+  cpack_add_component(live DESCRIPTION "Soft flow-rate sensor for spool valves: valves of one machine at work
+ A page with flow rate, condition and alarms of valves at work, their history,
+ messages, and outputs to fieldbus and plant: spoolflow live.")
+endif()
+if(TARGET spoolflow_fleet)
+  cpack_add_component(fleet DESCRIPTION "Soft flow-rate sensor for spool valves: valves of many sites
+ Workers that estimate and monitor the valves of many sites by NATS and
+ PostgreSQL, and a page over all of them: spoolflow worker, spoolflow fleet.")
+endif()
 if(SPOOLFLOW_PYTHON_INTERPRETER)
   cpack_add_component(python DESCRIPTION "Soft flow-rate sensor for spool valves: Python package
  Recordings, models, flow rates and their judgement as arrays of NumPy and

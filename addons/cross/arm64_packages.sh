@@ -43,20 +43,22 @@ cmake -S "$root" -B "$folder/build" -G Ninja -DCMAKE_TOOLCHAIN_FILE="$root/addon
 ninja -C "$folder/build" installable >&2
 
 # What the programs are linked with, by the packages that hold it: dpkg-shlibdeps knows this machine's alone.
-depends=
-for needed in $(aarch64-linux-gnu-objdump -p "$folder/build/bin/spoolflow" | sed -n 's/^ *NEEDED *//p'); do
-  for package in "$archive"/cache/archives/*.deb; do
-    case "$package" in *-dev_*) continue ;; esac
-    dpkg-deb --contents "$package" >"$archive/contents"
-    grep -q "/$needed\( -> .*\)\?$" "$archive/contents" || continue
-    one="$(dpkg-deb --field "$package" Package) (>= $(dpkg-deb --field "$package" Version | sed 's/^\([0-9]*:\)\?\([^-+~]*\).*/\1\2/'))"
-    case "$depends" in *"$one"*) ;; *) depends="${depends:+$depends, }$one" ;; esac
-    break
-  done
-done
+for package in "$archive"/cache/archives/*.deb; do
+  case "$package" in *-dev_*) continue ;; esac
+  one="$(dpkg-deb --field "$package" Package) (>= $(dpkg-deb --field "$package" Version | sed 's/^\([0-9]*:\)\?\([^-+~]*\).*/\1\2/'))"
+  dpkg-deb --contents "$package" | sed -n "s|.*/\([^/ ]*\.so\.[^ ]*\).*|\1:$one|p"
+done >"$archive/holders"
+depends_of() { # PROGRAM
+  for needed in $(aarch64-linux-gnu-objdump -p "$folder/build/bin/$1" | sed -n 's/^ *NEEDED *//p'); do
+    sed -n "s/^$needed://p" "$archive/holders" | head -1
+  done | sort -u | paste -sd, | sed 's/,/, /g'
+}
+own="spoolflow (= $(sed -n 's/^project(spoolflow VERSION \([0-9.]*\).*/\1/p' "$root/CMakeLists.txt"))"
 rm -rf "$folder/packages"
 (cd "$folder" && cpack --config build/CPackConfig.cmake -B packages -D CPACK_DEBIAN_PACKAGE_ARCHITECTURE=arm64 -D CPACK_DEBIAN_PACKAGE_SHLIBDEPS=OFF \
-  -D CPACK_DEBIAN_TOOL_PACKAGE_DEPENDS="$depends" -D CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS="libc6, libstdc++6, libgcc-s1" \
+  -D CPACK_DEBIAN_TOOL_PACKAGE_DEPENDS="$(depends_of spoolflow)" \
+  -D CPACK_DEBIAN_LIVE_PACKAGE_DEPENDS="$own, $(depends_of spoolflow-live)" -D CPACK_DEBIAN_FLEET_PACKAGE_DEPENDS="$own, $(depends_of spoolflow-fleet)" \
+  -D CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS="libc6, libstdc++6, libgcc-s1" \
   >cpack.log 2>&1) || { cat "$folder/cpack.log" >&2; exit 1; }
 rm -rf "$folder/packages/_CPack_Packages"
 ls "$folder"/packages/*.deb

@@ -6,15 +6,16 @@ build=$1 model=$2
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
+major=$(sed -n 's/^CMAKE_PROJECT_VERSION_MAJOR:STATIC=//p' "$build/CMakeCache.txt")
 cpack --config "$build/CPackConfig.cmake" -B "$folder/made" >cpack.log 2>&1 || { cat cpack.log; exit 1; }
-tool=$(ls made/spoolflow_*.deb) runtime=$(ls made/libspoolflow0_*.deb) development=$(ls made/libspoolflow-dev_*.deb)
+tool=$(ls made/spoolflow_*.deb) runtime=$(ls made/libspoolflow${major}_*.deb) development=$(ls made/libspoolflow-dev_*.deb)
 holds() {
   dpkg-deb --contents "$1" >contents
   grep -q "/$2\( -> .*\)\?$" contents
 }
 holds_not() { if holds "$1" "$2"; then echo "$1 holds $2" && exit 1; fi; }
 dpkg-deb --field "$tool" Depends | grep -q 'libc6'
-dpkg-deb --field "$development" Depends | grep -q 'libspoolflow0 (= '
+dpkg-deb --field "$development" Depends | grep -q "libspoolflow$major (= "
 for file in usr/bin/spoolflow usr/share/man/man1/spoolflow.1.gz usr/share/bash-completion/completions/spoolflow usr/share/doc/spoolflow/spoolflow.spdx.json usr/share/doc/spoolflow/CHANGELOG.md; do
   holds "$tool" $file
 done
@@ -22,11 +23,19 @@ for file in spoolflow.h spoolflow/sensor/observer.hpp spoolflow.pc spoolflowConf
   holds "$development" $file
 done
 # Programs need the shared library alone: by its name for them, known to dpkg-shlibdeps and to the loader's cache.
-holds "$runtime" libspoolflow.so.0
-dpkg-deb --info "$runtime" shlibs | grep -q '^libspoolflow 0 libspoolflow0'
+holds "$runtime" libspoolflow.so.$major
+dpkg-deb --info "$runtime" shlibs | grep -q "^libspoolflow $major libspoolflow$major"
 dpkg-deb --info "$runtime" triggers | grep -q 'ldconfig'
 for package in "$tool" "$development"; do
-  holds_not "$package" libspoolflow.so.0
+  holds_not "$package" libspoolflow.so.$major
+done
+# Programs of add-ons, each with its libraries and the command.
+for program in live fleet; do
+  if [ -e "$build/bin/spoolflow-$program" ]; then
+    holds "$(ls made/spoolflow-${program}_*.deb)" usr/bin/spoolflow-$program
+    holds_not "$tool" usr/bin/spoolflow-$program
+    dpkg-deb --field made/spoolflow-${program}_*.deb Depends | grep -q 'spoolflow (= .*libssl\|libssl.*spoolflow (= '
+  fi
 done
 # The Python package, where it is built.
 python=$(ls made/python3-spoolflow_*.deb 2>/dev/null || true)

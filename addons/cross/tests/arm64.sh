@@ -10,18 +10,23 @@ SPOOLFLOW_PLAIN_BUILD=$build "$source/addons/cross/arm64_packages.sh" "$kept"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
-for package in spoolflow libspoolflow0 libspoolflow-dev; do
-  file=$(ls "$kept/packages/${package}"_*_arm64.deb)
+for file in "$kept"/packages/*_arm64.deb; do
   test "$(dpkg-deb --field "$file" Architecture)" = arm64
   dpkg-deb --extract "$file" root
 done
-# Each library that the command asks for is of a package that its own package names, or of the C and C++ libraries.
-depends=$(dpkg-deb --field "$kept"/packages/spoolflow_*_arm64.deb Depends)
-aarch64-linux-gnu-objdump -p root/usr/bin/spoolflow | sed -n 's/^ *NEEDED *//p' >needed
-for name in libhdf5 libmatio libzip libssl libpq libsqlite3 libnats libfmt; do
-  grep -q "^$name" needed
-  case "$depends" in *"$name"*) ;; *) echo "$name is needed and not among: $depends" && exit 1 ;; esac
-done
+# Each library that a program asks for is of a package that its own package names, or of the C and C++ libraries.
+named() { # PROGRAM LIBRARY…
+  program=$1 depends=$(dpkg-deb --field "$kept/packages/$1"_*_arm64.deb Depends)
+  aarch64-linux-gnu-objdump -p "root/usr/bin/$program" | sed -n 's/^ *NEEDED *//p' >needed
+  shift
+  for name in "$@"; do
+    grep -q "^$name" needed
+    case "$depends" in *"$name"*) ;; *) echo "$program needs $name, which is not among: $depends" && exit 1 ;; esac
+  done
+}
+named spoolflow libhdf5 libmatio libzip libfmt
+named spoolflow-live libsqlite3 libssl
+named spoolflow-fleet libpq libnats
 run() { qemu-aarch64 -L "$kept/sysroot" -E LD_LIBRARY_PATH="$kept/sysroot/usr/lib/aarch64-linux-gnu:$folder/root/usr/lib" "$@"; }
 run root/usr/bin/spoolflow --version
 run root/usr/bin/spoolflow estimate "$model" "$recording" -o there.csv -q
