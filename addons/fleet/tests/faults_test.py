@@ -86,7 +86,7 @@ class Faults(WithAFleet):
             with open(os.path.join(self.folder, "wrong.toml"), "w", encoding="utf-8") as file:
                 file.write(changed)
             done = subprocess.run([COMMAND, *command.split(), "wrong.toml"], cwd=self.folder, text=True, capture_output=True,
-                                  timeout=20)
+                                  timeout=60)
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
             self.assertIn(what, done.stderr)
         for command in ("worker", "fleet --status", "fleet"):
@@ -117,7 +117,7 @@ class Faults(WithAFleet):
             address = page.stderr.readline().split("page at ")[1].split("/ ;")[0]
 
             def ask(path, data=None):
-                with urllib.request.urlopen(address + path, data, 20) as answer:
+                with urllib.request.urlopen(address + path, data, 60) as answer:
                     return json.loads(answer.read())
             valves = ask("/api/v1/valves")["valves"]
             self.assertEqual([one["id"] for one in valves], sorted(f"hall/v{k}" for k in range(VALVES)))
@@ -129,7 +129,7 @@ class Faults(WithAFleet):
             self.assertEqual(ask(f"/api/v1/alarms/{alarm['key']}/acknowledge", b"{}")["acknowledged_by"], "local")
             taken = (f"SELECT acknowledged_by FROM alarm JOIN acknowledgement USING (valve) WHERE valve = '{alarm['valve']}' "
                      f"AND id = {alarm['id']} AND taken_block > 0")
-            until(lambda: fleet.postgres.ask(taken) == ["local"], 30, "an acknowledgement that the worker has taken")
+            until(lambda: fleet.postgres.ask(taken) == ["local"], 90, "an acknowledgement that the worker has taken")
         finally:
             page.terminate()
             self.assertEqual(page.wait(30), 0)
@@ -146,9 +146,9 @@ class Faults(WithAFleet):
             def over():
                 valves = json.loads(live.ask("/api/v1/valves")[2])["valves"]
                 return all(one["samples"] == 1000 * SECONDS for one in valves) and outbox(inner)[0] == 0
-            until(over, 60, "a site whose reports are committed")
-            time.sleep(2)
-            until(lambda: reports_of_the_fleet(fleet.postgres) == reports_of_the_site(inner), 30,
+            until(over, 180, "a site whose reports are committed")
+            time.sleep(2)  # in which what was sent twice would come
+            until(lambda: reports_of_the_fleet(fleet.postgres) == reports_of_the_site(inner), 90,
                   "rows of the fleet that are those of the site")
         lines = reports_of_the_site(inner)
         for kind in ("second", "indicator", "event", "alarm", "state"):
@@ -205,11 +205,11 @@ class Faults(WithAFleet):
             reach(fleet, waiting, 90 * PATIENCE)
             show(f"  since then {watch.lap()}")
             show(f"in all {watch.end()}")
-            until(lambda: outbox(self.folder)[0] == 0, 30 * PATIENCE, "a site that has heard of all")
+            until(lambda: outbox(self.folder)[0] == 0, 90 * PATIENCE, "a site that has heard of all")
         def status():
             return subprocess.run([COMMAND, "fleet", "--status", "fleet.toml"], cwd=self.folder, text=True,
                                   capture_output=True)
-        until(lambda: "(nobody)" not in status().stdout, 20, "partitions that have owners")
+        until(lambda: "(nobody)" not in status().stdout, 90, "partitions that have owners")
         asked = status()
         self.assertEqual((asked.returncode, asked.stderr), (0, ""))
         show("all is committed:\n" + asked.stdout)

@@ -7,19 +7,12 @@ import signal
 import socket
 import ssl
 import subprocess
+import sys
 import threading
 import time
 
-
-def free_ports(count):
-    """That were free an instant ago."""
-    sockets = [socket.socket() for _ in range(count)]
-    for one in sockets:
-        one.bind(("127.0.0.1", 0))
-    ports = [one.getsockname()[1] for one in sockets]
-    for one in sockets:
-        one.close()
-    return ports
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "live", "tests"))
+from ports import free_ports  # noqa: E402, F401: for those who import it from here
 
 
 def until(condition, seconds, what):
@@ -28,6 +21,14 @@ def until(condition, seconds, what):
         if time.monotonic() > end:
             raise AssertionError(f"not within {seconds} s: {what}")
         time.sleep(0.05)
+
+
+def begins(process, answers_now, what, log):
+    """Until it answers; at once where it has ended, with its last words."""
+    until(lambda: answers_now() or process.poll() is not None, 60, what)
+    if process.poll() is not None:
+        with open(log, encoding="utf-8", errors="replace") as file:
+            raise AssertionError(f"{what}: it ended with {process.returncode}: {file.read()[-2000:]}")
 
 
 def answers(port):
@@ -80,7 +81,7 @@ class Nats:
         with open(os.path.join(self.folder, "log"), "a", encoding="utf-8") as log:
             self.process = subprocess.Popen(["nats-server", "-c", self.configuration], stdout=log, stderr=log,
                                             env={**os.environ, **PASSWORDS})
-        until(lambda: answers(self.port), 20, "a NATS server that answers")
+        begins(self.process, lambda: answers(self.port), "a NATS server that answers", os.path.join(self.folder, "log"))
 
     def kill(self):
         self.process.kill()
@@ -147,7 +148,7 @@ class Postgres:
             self.process = subprocess.Popen(
                 as_postgres([os.path.join(self.BIN, "postgres"), "-D", self.data, "-p", str(self.port), "-h",
                              "127.0.0.1", "-k", os.path.dirname(self.data), *options]), stdout=log, stderr=log, cwd="/")
-        until(self.ready, 30, f"a PostgreSQL {self.name} that answers")
+        begins(self.process, self.ready, f"a PostgreSQL {self.name} that answers", self.log + ".out")
 
     def ready(self):
         return subprocess.run([os.path.join(self.BIN, "pg_isready"), "-q", "-h", "127.0.0.1", "-p", str(self.port)],
@@ -161,10 +162,10 @@ class Postgres:
         """kill -9 of the server; what it leaves behind ends by itself."""
         os.kill(self.postmaster(), signal.SIGKILL)
         self.process.wait()
-        until(lambda: not answers(self.port), 20, "a PostgreSQL server that is gone")
+        until(lambda: not answers(self.port), 60, "a PostgreSQL server that is gone")
 
     def restart(self):
-        for _ in range(50):  # its last processes may still hold its memory
+        for _ in range(100):  # its last processes may still hold its memory
             try:
                 os.remove(os.path.join(self.data, "postmaster.pid"))
             except FileNotFoundError:
@@ -172,8 +173,10 @@ class Postgres:
             try:
                 self.start()
                 return
-            except AssertionError:
+            except AssertionError as failure:
+                reason = failure
                 time.sleep(0.2)
+        raise AssertionError("a PostgreSQL server that was killed does not start again") from reason
 
     def promote(self):
         self.tool("pg_ctl", "promote", "-D", self.data)
@@ -263,11 +266,13 @@ class Gate:
 
 def connected_to_nats(port, user, lines):
     """A connection by the NATS protocol, logged in, to which `lines` were sent."""
-    raw = socket.create_connection(("127.0.0.1", port), 5)
-    raw.settimeout(5)
+    raw = socket.create_connection(("127.0.0.1", port), 30)
     greeting = b""
     while not greeting.endswith(b"\r\n"):
-        greeting += raw.recv(1)
+        letter = raw.recv(1)
+        if not letter:
+            raise ConnectionError(f"the server at {port} ended the connection behind {greeting!r}")
+        greeting += letter
     if b'"tls_required":true' in greeting:
         context = ssl.create_default_context()
         context.check_hostname = False

@@ -28,7 +28,7 @@ class Fleet:
             self.standby = self.started(Postgres(folder, postgres_ports[1], "standby", self.postgres))
             self.postgres.ask("ALTER SYSTEM SET synchronous_standby_names = 'standby'")
             self.postgres.ask("SELECT pg_reload_conf()")
-            until(lambda: self.postgres.ask("SELECT sync_state FROM pg_stat_replication") == ["sync"], 20, "a standby")
+            until(lambda: self.postgres.ask("SELECT sync_state FROM pg_stat_replication") == ["sync"], 60, "a standby")
         else:
             postgres_ports = postgres_ports[:1]
         write_fleet(folder, self.nats_ports, postgres_ports, count, with_login=kind == "single")
@@ -59,7 +59,7 @@ class Fleet:
             done.append(subprocess.run([self.command, "fleet", "--setup", "fleet.toml"], cwd=self.folder, text=True,
                                        capture_output=True))
             return done[-1].returncode == 0
-        until(made, 30, "a fleet that is set up")
+        until(made, 90, "a fleet that is set up")
         if not self.postgres.ask("SELECT 1 FROM pg_roles WHERE rolname = 'worker_1'"):
             self.postgres.ask("CREATE ROLE worker_1 LOGIN IN ROLE spoolflow_worker")
             self.postgres.ask("CREATE ROLE secret LOGIN PASSWORD 'secret' IN ROLE spoolflow_worker")
@@ -99,7 +99,7 @@ class Fleet:
         worker = chance.choice(self.workers)
         worker.signal(signal.SIGSTOP)
         owned = f"SELECT count(*) FROM partition WHERE owner LIKE '{worker.name}-%'"
-        until(lambda: self.postgres.ask(owned) == ["0"], 20, "partitions that were taken over")
+        until(lambda: self.postgres.ask(owned) == ["0"], 90, "partitions that were taken over")
         worker.signal(signal.SIGCONT)
 
     def kill_nats(self, chance):
@@ -113,7 +113,7 @@ class Fleet:
         def deleted():
             said = ask_nats(self.nats_ports[0], "$JS.API.STREAM.DELETE.spoolflow", self.user)
             return '"success":true' in said or "stream not found" in said
-        until(deleted, 30, "a stream that is deleted")
+        until(deleted, 90, "a stream that is deleted")
 
     def cut_the_site_off(self, chance):
         for gate in self.gates:

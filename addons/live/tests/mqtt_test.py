@@ -14,6 +14,7 @@ import time
 import paho.mqtt.client as mqtt
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from ports import free_ports  # noqa: E402
 from served import Live, certificate  # noqa: E402
 
 command, examples, modules = (os.path.abspath(one) for one in sys.argv[1:4])
@@ -30,12 +31,6 @@ require("readline").createInterface({input: process.stdin}).on("line", (line) =>
   }
 });
 """
-
-
-def free_port():
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        return one.getsockname()[1]
 
 
 class Decoder:
@@ -143,7 +138,7 @@ try:
     shutil.copy(os.path.join(examples, "live", "size_6.json"), os.path.join(folder, "model.json"))
     certificate(folder)
     os.chmod(os.path.join(folder, "key.pem"), 0o644)
-    port = free_port()
+    port = free_ports(1)[0]
     line = Line(port)
     with open(os.path.join(folder, "password"), "w", encoding="utf-8") as file:
         file.write("a secret of some length\n")

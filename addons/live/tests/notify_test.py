@@ -18,6 +18,7 @@ from aiosmtpd.controller import Controller
 from aiosmtpd.smtp import SMTP, AuthResult
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from ports import free_ports  # noqa: E402
 from served import Live, certificate  # noqa: E402
 
 command, examples = map(os.path.abspath, sys.argv[1:3])
@@ -104,9 +105,7 @@ try:
     hook = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Hook)
     hook.socket = context.wrap_socket(hook.socket, server_side=True)
     threading.Thread(target=hook.serve_forever, daemon=True).start()
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        mail_port = free.getsockname()[1]
+    mail_port, = free_ports(1)
     letters = MailServer(Letters(), hostname="127.0.0.1", port=mail_port)
     letters.start()
     silent = socket.create_server(("127.0.0.1", 0))  # takes connections and never answers

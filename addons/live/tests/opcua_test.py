@@ -5,12 +5,12 @@ import json
 import os
 import shutil
 import signal
-import socket
 import subprocess
 import sys
 import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from ports import free_ports  # noqa: E402
 from served import Live  # noqa: E402
 
 command, examples, bridge, client = (os.path.abspath(one) for one in sys.argv[1:5])
@@ -19,9 +19,7 @@ SECRET = "a secret of some length"
 
 class Bridge:
     def __init__(self, folder, live_port):
-        with socket.socket() as one:
-            one.bind(("127.0.0.1", 0))
-            self.port = one.getsockname()[1]
+        self.port, = free_ports(1)
         self.process = subprocess.Popen(
             ["node", os.path.join(bridge, "server.js"), "--live", f"http://127.0.0.1:{live_port}", "--users", "users",
              "--port", str(self.port)], cwd=folder, stdout=subprocess.PIPE, text=True)
