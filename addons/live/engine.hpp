@@ -46,6 +46,9 @@ class Engine {
   [[nodiscard]] SourceView source(std::size_t k) const { return sources_.view(k); }
   [[nodiscard]] UdpCounters udp_counters() const { return sources_.udp_counters(); }
   [[nodiscard]] std::vector<UnknownSender> unknown_senders() const { return sources_.unknown_senders(); }
+  /// Where the messages of the site's broker go; null where it has none. From the start until stop().
+  [[nodiscard]] MessageSources* messages() { return sources_.messages(); }
+  [[nodiscard]] const MessageSources* messages() const { return sources_.messages(); }
   [[nodiscard]] std::uint16_t udp_port() const { return sources_.udp_port(); }
   [[nodiscard]] StoreView store_view() const { return keeper_ ? keeper_->view() : StoreView{}; }
   [[nodiscard]] std::vector<Event> events() const { return journal_.events.all(); }

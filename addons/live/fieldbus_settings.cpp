@@ -75,6 +75,31 @@ std::string topic_part(const TomlTable& table, const char* key) {
       fmt::format("{}: {} is '{}'; it must be 1 to 64 letters without '/', '+' and '#'", table.place(key), key, text));
 }
 
+BrokerSettings read_broker(const TomlTable& mqtt) {
+  BrokerSettings out{.address = mqtt.text("broker"),
+                     .user = mqtt.optional_text("user").value_or(""),
+                     .password_file = file_of(mqtt, "password_file"),
+                     .authority = file_of(mqtt, "authority")};
+  const bool is_encrypted = out.address.starts_with("ssl://");
+  if (!is_encrypted && !out.address.starts_with("tcp://")) {
+    throw SiteError(fmt::format("{}: broker is '{}'; write tcp://HOST:1883, or ssl://HOST:8883 with TLS",
+                                mqtt.place("broker"), out.address));
+  }
+  if (out.user.empty() != out.password_file.empty()) {
+    throw SiteError(fmt::format("{}: user and password_file go together; name the other, too",
+                                mqtt.place(out.user.empty() ? "password_file" : "user")));
+  }
+  const std::string host = out.address.substr(6, out.address.rfind(':') - 6);
+  const bool is_here = host == "localhost" || Address{host, 0}.is_loopback();
+  if (!out.user.empty() && !is_encrypted && !is_here) {
+    throw SiteError(
+        fmt::format("{}: a password would go to '{}' unencrypted; write ssl://HOST:8883, with authority = "
+                    "\"ca.pem\"",
+                    mqtt.place("broker"), out.address));
+  }
+  return out;
+}
+
 }  // namespace
 
 CanSettings read_can(const TomlTable& can) {
@@ -138,34 +163,38 @@ ModbusSettings read_modbus(const TomlTable& modbus) {
   return out;
 }
 
+std::optional<std::string> id_in_topic(const std::string& pattern, const std::string& topic) {
+  const std::size_t plus = pattern.find('+');
+  if (plus == std::string::npos) return {};
+  const std::string_view before = std::string_view(pattern).substr(0, plus),
+                         behind = std::string_view(pattern).substr(plus + 1);
+  if (topic.size() <= before.size() + behind.size() || !topic.starts_with(before) || !topic.ends_with(behind))
+    return {};
+  std::string id = topic.substr(before.size(), topic.size() - before.size() - behind.size());
+  if (id.find('/') != std::string::npos) return {};
+  return id;
+}
+
 MqttSettings read_mqtt(const TomlTable& mqtt) {
   mqtt.allow_only({"broker", "group", "edge_node", "user", "password_file", "authority", "period_s", "keep_s"});
-  MqttSettings out{.broker = mqtt.text("broker"),
-                   .group = topic_part(mqtt, "group"),
-                   .edge_node = topic_part(mqtt, "edge_node"),
-                   .user = mqtt.optional_text("user").value_or(""),
-                   .password_file = file_of(mqtt, "password_file"),
-                   .authority = file_of(mqtt, "authority")};
-  const bool is_encrypted = out.broker.starts_with("ssl://");
-  if (!is_encrypted && !out.broker.starts_with("tcp://")) {
-    throw SiteError(fmt::format("{}: broker is '{}'; write tcp://HOST:1883, or ssl://HOST:8883 with TLS",
-                                mqtt.place("broker"), out.broker));
-  }
-  if (out.user.empty() != out.password_file.empty()) {
-    throw SiteError(fmt::format("{}: user and password_file go together; name the other, too",
-                                mqtt.place(out.user.empty() ? "password_file" : "user")));
-  }
-  const std::string host = out.broker.substr(6, out.broker.rfind(':') - 6);
-  const bool is_here = host == "localhost" || Address{host, 0}.is_loopback();
-  if (!out.user.empty() && !is_encrypted && !is_here) {
-    throw SiteError(
-        fmt::format("{}: a password would go to '{}' unencrypted; write ssl://HOST:8883, with authority = "
-                    "\"ca.pem\"",
-                    mqtt.place("broker"), out.broker));
-  }
+  MqttSettings out{
+      .broker = read_broker(mqtt), .group = topic_part(mqtt, "group"), .edge_node = topic_part(mqtt, "edge_node")};
   out.period_s = within(mqtt, "period_s", out.period_s, {0.1, 3600});
   out.keep_s = within(mqtt, "keep_s", out.keep_s, {0, 86400});
   return out;
+}
+
+MqttSourceSettings read_mqtt_source(const TomlTable& mqtt) {
+  mqtt.allow_only({"broker", "topic", "user", "password_file", "authority"});
+  MqttSourceSettings out{read_broker(mqtt), mqtt.optional_text("topic").value_or("")};
+  if (out.topic.empty()) return out;
+  const std::size_t plus = out.topic.find('+');
+  const bool is_level = plus != std::string::npos && (plus == 0 || out.topic[plus - 1] == '/') &&
+                        (plus + 1 == out.topic.size() || out.topic[plus + 1] == '/');
+  if (is_level && out.topic.rfind('+') == plus && out.topic.find('#') == std::string::npos) return out;
+  throw SiteError(fmt::format(
+      "{}: topic is '{}'; one level of it is '+', in whose place the valve's id stands, such as hall_3/+/samples",
+      mqtt.place("topic"), out.topic));
 }
 
 }  // namespace spoolflow::live

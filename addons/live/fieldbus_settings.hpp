@@ -1,5 +1,6 @@
 #pragma once
-/// [can], [modbus] and [mqtt] of a site's file: what goes out to fieldbus and plant. Format: docs/fieldbus.md.
+/// [can], [modbus] and [mqtt] of a site's file: what goes out to fieldbus and plant (docs/fieldbus.md); and
+/// [sources.mqtt]: what comes from there (docs/live.md).
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -33,21 +34,33 @@ struct ModbusSettings {
   std::vector<std::string> allow{};  ///< who may ask, where other machines reach the address
   unsigned unit = 1;                 ///< whom it answers as; 0 and 255 are answered, too
 };
-/// MQTT 3.1.1 with Sparkplug B 3.0.
-struct MqttSettings {
-  std::string broker{};                   ///< "tcp://HOST:PORT" or "ssl://HOST:PORT"
-  std::string group{}, edge_node{};       ///< of Sparkplug's topics: no '/', '+' or '#'
+/// A broker of MQTT 3.1.1 and who is at it.
+struct BrokerSettings {
+  std::string address{};                  ///< "tcp://HOST:PORT" or "ssl://HOST:PORT"
   std::string user{};                     ///< empty: none
   std::filesystem::path password_file{};  ///< whose first line is the user's password
   std::filesystem::path authority{};      ///< PEM of who signed the broker's certificate, of ssl
-  double period_s = 1;                    ///< of DDATA, 0.1 to 3600
-  double keep_s = 3600;                   ///< what is kept while the broker is away: the newest so long
 };
+/// What goes out with Sparkplug B 3.0.
+struct MqttSettings {
+  BrokerSettings broker{};
+  std::string group{}, edge_node{};  ///< of Sparkplug's topics: no '/', '+' or '#'
+  double period_s = 1;               ///< of DDATA, 0.1 to 3600
+  double keep_s = 3600;              ///< what is kept while the broker is away: the newest so long
+};
+/// Where samples come from.
+struct MqttSourceSettings {
+  BrokerSettings broker{};
+  std::string topic{};  ///< "hall_3/+/samples": one level '+' is the valve's id; empty: each valve names its own
+};
+/// What stands in the place of '+' where the topic fits; nothing where it does not.
+[[nodiscard]] std::optional<std::string> id_in_topic(const std::string& pattern, const std::string& topic);
 
 /// Throw SiteError or RecordingError with file, line and remedy.
 [[nodiscard]] CanSettings read_can(const recording::TomlTable& can);
 [[nodiscard]] ModbusSettings read_modbus(const recording::TomlTable& modbus);
 [[nodiscard]] MqttSettings read_mqtt(const recording::TomlTable& mqtt);
+[[nodiscard]] MqttSourceSettings read_mqtt_source(const recording::TomlTable& mqtt);
 /// Throws SiteError where a valve is named that the site has not.
 void check_valves(const CanSettings& can, const std::vector<std::string>& ids, const std::filesystem::path& file);
 

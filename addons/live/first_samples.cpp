@@ -104,9 +104,9 @@ struct FirstSamples::Parts {
 FirstSamples::FirstSamples(const SiteSettings& site) : parts_(std::make_unique<Parts>(site)) {
   for (const ValveSettings& valve : site.valves) {
     parts_->places.push_back(std::make_unique<Place>());
-    parts_->places.back()->has_sender = std::holds_alternative<UdpSettings>(valve.source) ||
-                                        std::holds_alternative<TcpSettings>(valve.source) ||
-                                        std::holds_alternative<PipeSettings>(valve.source);
+    parts_->places.back()->has_sender =
+        std::holds_alternative<UdpSettings>(valve.source) || std::holds_alternative<TcpSettings>(valve.source) ||
+        std::holds_alternative<MqttTopicSettings>(valve.source) || std::holds_alternative<PipeSettings>(valve.source);
   }
   parts_->thread = std::jthread([parts = parts_.get()](const std::stop_token& stop) { parts->run(stop); });
 }

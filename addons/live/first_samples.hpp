@@ -1,7 +1,7 @@
 #pragma once
 /// Whether what a valve's sender delivers can be of the valve of its model, in the units that it should have: half a
 /// minute of samples in which the spool moves is held against what recordings are held against, once after each begin
-/// of a sender and, as long as that finds something, again and again. Of sources with senders: udp, tcp, pipe.
+/// of a sender and, as long as that finds something, again and again. Of sources with senders: udp, tcp, mqtt, pipe.
 #include <memory>
 #include <string>
 #include <vector>

@@ -16,7 +16,7 @@ namespace {
 
 using recording::TomlTable;
 
-const std::vector<std::string> source_kinds{"udp", "tcp", "pipe", "replay", "rig"};
+const std::vector<std::string> source_kinds{"udp", "tcp", "mqtt", "pipe", "replay", "rig"};
 
 /// Beside the site's file, where it is relative.
 std::filesystem::path beside(const TomlTable& table, const std::string& name) {
@@ -90,6 +90,12 @@ RigSettings read_rig(const TomlTable& source) {
   return rig;
 }
 
+MqttTopicSettings read_topic(const TomlTable& source) {
+  MqttTopicSettings out{source.optional_text("topic").value_or("")};
+  if (out.topic.find_first_of("+#") == std::string::npos) return out;
+  throw SiteError(fmt::format("{}: topic is '{}'; a valve's own has no '+' or '#'", source.place("topic"), out.topic));
+}
+
 SourceSettings read_source(const TomlTable& source) {
   const std::string kind = source.text("kind");
   if (kind == "udp") {
@@ -99,6 +105,10 @@ SourceSettings read_source(const TomlTable& source) {
   if (kind == "tcp") {
     source.allow_only({"kind", "listen"});
     return TcpSettings{read_address(source.text("listen"), source.place("listen"))};
+  }
+  if (kind == "mqtt") {
+    source.allow_only({"kind", "topic"});
+    return read_topic(source);
   }
   if (kind == "pipe") {
     source.allow_only({"kind", "path"});
@@ -186,7 +196,11 @@ void read_parts(const TomlTable& top, SiteSettings& site) {
     site.retention.largest_MB = store->optional_positive("largest_MB").value_or(site.retention.largest_MB);
   }
   if (const auto sources = part("sources")) {
-    sources->allow_only({"udp", "allow", "stalled_after_s"});
+    sources->allow_only({"udp", "allow", "mqtt", "stalled_after_s"});
+    if (const toml::node* mqtt = sources->table.get("mqtt")) {
+      if (!mqtt->is_table()) throw SiteError(fmt::format("{}: mqtt must be a table", sources->place("mqtt")));
+      site.mqtt_source = read_mqtt_source({*mqtt->as_table(), top.file, "[sources.mqtt]"});
+    }
     if (const auto udp = sources->optional_text("udp")) site.udp = read_address(*udp, sources->place("udp"));
     for (const std::string& host : texts(*sources, "allow"))
       site.allow.push_back(read_host(host, sources->place("allow")));
@@ -205,6 +219,32 @@ std::vector<NotifySettings> read_notified(const TomlTable& top) {
   }
   for (const toml::node& one : *node->as_array()) out.push_back(read_notify({*one.as_table(), top.file, "[[notify]]"}));
   return out;
+}
+
+/// Each valve whose source is mqtt has its topic then.
+void give_topics(SiteSettings& site, const std::filesystem::path& file) {
+  std::map<std::string, std::string> valve_of;
+  for (ValveSettings& valve : site.valves) {
+    auto* const mqtt = std::get_if<MqttTopicSettings>(&valve.source);
+    if (mqtt == nullptr) continue;
+    if (!site.mqtt_source) {
+      throw SiteError(
+          fmt::format("{}: the source of '{}' is mqtt, and no broker is given; write [sources.mqtt] with "
+                      "broker = \"tcp://HOST:1883\" and topic = \"hall_3/+/samples\"",
+                      file.string(), valve.id));
+    }
+    const std::string& pattern = site.mqtt_source->topic;
+    if (mqtt->topic.empty() && pattern.empty()) {
+      throw SiteError(fmt::format("{}: '{}' has no topic; give its source one, or [sources.mqtt] one for all",
+                                  file.string(), valve.id));
+    }
+    if (mqtt->topic.empty()) mqtt->topic = std::string(pattern).replace(pattern.find('+'), 1, valve.id);
+    const auto [other, is_new] = valve_of.emplace(mqtt->topic, valve.id);
+    if (!is_new) {
+      throw SiteError(fmt::format("{}: '{}' and '{}' have the topic '{}' both; give one another", file.string(),
+                                  other->second, valve.id, mqtt->topic));
+    }
+  }
 }
 
 /// What must hold between the parts.
@@ -258,6 +298,7 @@ SiteSettings read_site(const std::filesystem::path& file) {
     if (!valve.is_table()) throw SiteError(fmt::format("{}: valve must be a table [[valve]]", file.string()));
     site.valves.push_back(read_valve({*valve.as_table(), file, "[[valve]]"}, models));
   }
+  give_topics(site, file);
   check(site, file);
   return site;
 }

@@ -24,11 +24,15 @@ struct UdpSettings {};
 struct TcpSettings {
   Address listen;
 };
+struct MqttTopicSettings {
+  std::string topic;  ///< as it is subscribed to, the valve's own or that of [sources.mqtt] with its id
+};
 struct PipeSettings {
   std::filesystem::path path;  ///< "-": standard input
 };
-using SourceSettings = std::variant<UdpSettings, TcpSettings, PipeSettings, ReplaySettings, RigSettings>;
-/// "udp", "tcp", "pipe", "replay" or "rig".
+using SourceSettings =
+    std::variant<UdpSettings, TcpSettings, MqttTopicSettings, PipeSettings, ReplaySettings, RigSettings>;
+/// "udp", "tcp", "mqtt", "pipe", "replay" or "rig".
 [[nodiscard]] std::string_view kind(const SourceSettings& source);
 
 struct ValveSettings {
@@ -42,7 +46,8 @@ struct SiteSettings {
   std::vector<ValveSettings> valves{};
   PageSettings page{};
   PublishSettings fleet{};
-  std::optional<Address> udp{};      ///< of all valves whose source is udp
+  std::optional<Address> udp{};                     ///< of all valves whose source is udp
+  std::optional<MqttSourceSettings> mqtt_source{};  ///< of all valves whose source is mqtt
   std::vector<std::string> allow{};  ///< addresses that may send samples; empty: any that can reach a loopback address
   double stalled_after_s = 1.0;      ///< without a sample
   std::string store{};               ///< file; empty: nothing is kept

@@ -81,6 +81,7 @@ void ValveSources::start() {
     if (has_sessions(k)) senders.push_back({site_.valves[k].id, places_[k]->intake.get(), places_[k]->after});
   }
   if (site_.udp) udp_ = std::make_unique<UdpReceiver>(*site_.udp, site_.allow, senders);
+  if (site_.mqtt_source) messages_ = std::make_unique<MessageSources>(*site_.mqtt_source);
   for (std::size_t k = 0; k < places_.size(); ++k) start_source(k);
 }
 
@@ -90,6 +91,8 @@ void ValveSources::start_source(std::size_t k) {
   const recording::ReadOptions channels = estimation::sensor_channels(*settings.model.model, settings.channels);
   if (const auto* tcp = std::get_if<TcpSettings>(&settings.source)) {
     place.source = std::make_unique<TcpSource>(tcp->listen, site_.allow, channels, place.after, *place.intake);
+  } else if (const auto* mqtt = std::get_if<MqttTopicSettings>(&settings.source)) {
+    messages_->add(mqtt->topic, channels, place.after, *place.intake);
   } else if (const auto* pipe = std::get_if<PipeSettings>(&settings.source)) {
     place.source = std::make_unique<PipeSource>(pipe->path, channels, place.after, *place.intake);
   } else if (const auto* replay = std::get_if<ReplaySettings>(&settings.source)) {
@@ -112,6 +115,8 @@ void ValveSources::stop() {
   }
   for (const auto& place : places_) place->source = std::monostate{};
   udp_.reset();
+  if (messages_) messages_->ask_to_stop();
+  messages_.reset();
   for (const auto& worker : workers_) worker->thread = {};
   for (const auto& place : places_) workers_.front()->work(*place);
 }

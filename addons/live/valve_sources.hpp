@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "addons/live/first_samples.hpp"
+#include "addons/live/message_sources.hpp"
 #include "addons/live/site.hpp"
 #include "addons/live/sources/csv_source.hpp"
 #include "addons/live/sources/intake.hpp"
@@ -52,6 +53,8 @@ class ValveSources {
   [[nodiscard]] std::vector<UnknownSender> unknown_senders() const {
     return udp_ ? udp_->unknown_senders() : std::vector<UnknownSender>{};
   }
+  /// Of the site's broker; null where it has none, or before the start. It lives until stop().
+  [[nodiscard]] MessageSources* messages() const { return messages_.get(); }
   [[nodiscard]] std::uint16_t udp_port() const { return udp_ ? udp_->port() : std::uint16_t{0}; }
 
  private:
@@ -75,6 +78,7 @@ class ValveSources {
   std::vector<std::unique_ptr<Place>> places_;
   std::vector<std::unique_ptr<Worker>> workers_;
   std::unique_ptr<UdpReceiver> udp_;
+  std::unique_ptr<MessageSources> messages_;
 };
 
 }  // namespace spoolflow::live

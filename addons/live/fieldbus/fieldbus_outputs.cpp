@@ -13,6 +13,7 @@ void check_built_in(const SiteSettings& site) {
   };
   if (site.modbus && !has_modbus()) refuse("modbus", "libmodbus-dev", "SPOOLFLOW_MODBUS");
   if (site.mqtt && !has_mqtt()) refuse("mqtt", "libpaho-mqtt-dev", "SPOOLFLOW_MQTT");
+  if (site.mqtt_source && !has_mqtt()) refuse("sources.mqtt", "libpaho-mqtt-dev", "SPOOLFLOW_MQTT");
 }
 
 FieldbusOutputs::FieldbusOutputs(Engine& engine) {
@@ -28,7 +29,12 @@ FieldbusOutputs::FieldbusOutputs(Engine& engine) {
   }
   if (site.mqtt) {
     mqtt_.emplace(engine, *site.mqtt);
-    where_.push_back(fmt::format("MQTT to {} as {}/{}", site.mqtt->broker, site.mqtt->group, site.mqtt->edge_node));
+    where_.push_back(
+        fmt::format("MQTT to {} as {}/{}", site.mqtt->broker.address, site.mqtt->group, site.mqtt->edge_node));
+  }
+  if (site.mqtt_source) {
+    receiver_.emplace(engine, *site.mqtt_source);
+    where_.push_back(fmt::format("samples by MQTT from {}", site.mqtt_source->broker.address));
   }
 }
 

@@ -1,11 +1,12 @@
 #pragma once
-/// All of a site that goes out to fieldbus and plant, as its file switches it on.
+/// All of a site that goes out to fieldbus and plant, and samples by MQTT, as its file switches it on.
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "addons/live/fieldbus/can_sender.hpp"
 #include "addons/live/fieldbus/modbus_server.hpp"
+#include "addons/live/fieldbus/mqtt_receiver.hpp"
 #include "addons/live/fieldbus/mqtt_sender.hpp"
 
 namespace spoolflow::live {
@@ -13,7 +14,7 @@ namespace spoolflow::live {
 /// Throws SiteError where the site asks for what this build has not.
 void check_built_in(const SiteSettings& site);
 
-/// Goes out until it is destroyed. The engine must outlive it.
+/// At work until it is destroyed. The engine must have been started and outlive it.
 class FieldbusOutputs {
  public:
   /// Throws SiteError where an address or a port cannot be had.
@@ -25,6 +26,7 @@ class FieldbusOutputs {
   std::optional<CanSender> can_;
   std::optional<ModbusServer> modbus_;
   std::optional<MqttSender> mqtt_;
+  std::optional<MqttReceiver> receiver_;
   std::vector<std::string> where_;
 };
 

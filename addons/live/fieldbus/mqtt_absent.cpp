@@ -1,4 +1,5 @@
-/// In place of mqtt_sender.cpp where Paho C was not there.
+/// In place of mqtt_sender.cpp and mqtt_receiver.cpp where Paho C was not there.
+#include "addons/live/fieldbus/mqtt_receiver.hpp"
 #include "addons/live/fieldbus/mqtt_sender.hpp"
 
 namespace spoolflow::live {
@@ -13,5 +14,12 @@ MqttSender::MqttSender(Engine&, const MqttSettings&) {
   throw SiteError("[mqtt]: this spoolflow was built without MQTT");
 }
 MqttSender::~MqttSender() = default;
+
+struct MqttReceiver::Parts {};
+
+MqttReceiver::MqttReceiver(Engine&, const MqttSourceSettings&) {
+  throw SiteError("[sources.mqtt]: this spoolflow was built without MQTT");
+}
+MqttReceiver::~MqttReceiver() = default;
 
 }  // namespace spoolflow::live

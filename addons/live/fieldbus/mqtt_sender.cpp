@@ -1,11 +1,9 @@
 #include "addons/live/fieldbus/mqtt_sender.hpp"
 
-#include <MQTTClient.h>
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <deque>
-#include <fstream>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -13,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "addons/live/fieldbus/mqtt_login.hpp"
 #include "addons/live/fieldbus/plant_answers.hpp"
 #include "addons/live/protocols/sparkplug.hpp"
 #include "spoolflow/parallel/pace.hpp"
@@ -22,15 +21,6 @@ namespace {
 
 using fieldbus::PlantAnswer;
 using fieldbus::SparkplugMetric;
-
-std::string first_line(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::string line;
-  if (!std::getline(in, line) || line.empty()) {
-    throw SiteError(fmt::format("[mqtt]: {} holds no password in its first line, or cannot be read", file.string()));
-  }
-  return line;
-}
 
 /// All valves at one time.
 struct Record {
@@ -90,10 +80,9 @@ bool has_mqtt() {
 struct MqttSender::Parts {
   Engine& engine;
   MqttSettings settings;
-  std::string password;
+  MqttClient client;
   std::shared_ptr<Output> output;
   Waiting waiting;
-  MQTTClient client = nullptr;
   std::atomic<bool> is_connected{false}, wants_birth{false};
   int seq = 0;
   std::int64_t bd_seq = -1;  ///< of the last connection
@@ -104,31 +93,19 @@ struct MqttSender::Parts {
   Parts(Engine& of, const MqttSettings& with)
       : engine(of),
         settings(with),
-        password(with.user.empty() ? "" : first_line(with.password_file)),
+        client(with.broker, fmt::format("spoolflow-{}-{}", with.group, with.edge_node), "[mqtt]"),
         output(of.outputs().add("mqtt")),
         waiting(most_records(with, of.size())),
         published(of.size()) {
-    const std::string id = fmt::format("spoolflow-{}-{}", settings.group, settings.edge_node);
-    const int made =
-        MQTTClient_create(&client, settings.broker.c_str(), id.c_str(), MQTTCLIENT_PERSISTENCE_NONE, nullptr);
-    if (made != MQTTCLIENT_SUCCESS) {
-      throw SiteError(
-          fmt::format("[mqtt]: '{}' is no broker's address ({}); write tcp://HOST:1883", settings.broker, words(made)));
-    }
-    (void)MQTTClient_setCallbacks(client, this, &lost, &arrived, nullptr);
+    (void)MQTTClient_setCallbacks(client.get(), this, &lost, &arrived, nullptr);
   }
   ~Parts() {
     sampler = {};
     sender = {};
-    MQTTClient_destroy(&client);
   }
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
 
-  static std::string words(int code) {
-    const char* const text = MQTTClient_strerror(code);
-    return text == nullptr ? fmt::format("code {}", code) : text;
-  }
   static void lost(void* context, char*) { static_cast<Parts*>(context)->is_connected = false; }
   static int arrived(void* context, char* topic, int, MQTTClient_message* message) {
     auto& parts = *static_cast<Parts*>(context);
@@ -147,8 +124,8 @@ struct MqttSender::Parts {
   [[nodiscard]] SparkplugMetric bd_metric(std::int64_t now_ms) const { return {"bdSeq", now_ms, bd_seq}; }
 
   bool publish(const std::string& to, const std::string& bytes, int qos = 0) {
-    const int done = is_connected ? MQTTClient_publish(client, to.c_str(), static_cast<int>(bytes.size()), bytes.data(),
-                                                       qos, 0, nullptr)
+    const int done = is_connected ? MQTTClient_publish(client.get(), to.c_str(), static_cast<int>(bytes.size()),
+                                                       bytes.data(), qos, 0, nullptr)
                                   : MQTTCLIENT_DISCONNECTED;
     if (done == MQTTCLIENT_SUCCESS) {
       ++output->sent;
@@ -173,26 +150,10 @@ struct MqttSender::Parts {
     will.topicName = death_topic.c_str();
     will.payload = {static_cast<int>(death.size()), death.data()};
     will.qos = 1;
-    MQTTClient_SSLOptions tls = MQTTClient_SSLOptions_initializer;
-    const std::string authority = settings.authority.string();
-    if (!authority.empty()) tls.trustStore = authority.c_str();
-    tls.verify = 1;
-    tls.sslVersion = MQTT_SSL_VERSION_TLS_1_2;
-    MQTTClient_connectOptions options = MQTTClient_connectOptions_initializer;
-    options.keepAliveInterval = 10;
-    options.cleansession = 1;
-    options.connectTimeout = 3;
-    options.MQTTVersion = MQTTVERSION_3_1_1;
-    options.will = &will;
-    if (settings.broker.starts_with("ssl://")) options.ssl = &tls;
-    if (!settings.user.empty()) {
-      options.username = settings.user.c_str();
-      options.password = password.c_str();
-    }
-    int done = MQTTClient_connect(client, &options);
-    if (done == MQTTCLIENT_SUCCESS) done = MQTTClient_subscribe(client, topic("NCMD").c_str(), 1);
+    int done = client.connect(&will);
+    if (done == MQTTCLIENT_SUCCESS) done = MQTTClient_subscribe(client.get(), topic("NCMD").c_str(), 1);
     if (done != MQTTCLIENT_SUCCESS) {
-      output->set_trouble(fmt::format("no connection to {}: {}", settings.broker, words(done)));
+      output->set_trouble(client.no_connection(done));
       return false;
     }
     output->set_trouble("");
@@ -261,7 +222,6 @@ struct MqttSender::Parts {
     while (!stop.stop_requested()) {
       output->connected = is_connected ? 1 : 0;
       if (!is_connected) {
-        if (MQTTClient_isConnected(client) != 0) (void)MQTTClient_disconnect(client, 0);
         if (!connect() || !give_birth()) (void)parallel::wait_for(between_tries, stop);
         continue;
       }
@@ -277,7 +237,7 @@ struct MqttSender::Parts {
     if (!is_connected) return;
     const std::int64_t now = wall_ms();
     (void)publish(topic("NDEATH"), fieldbus::sparkplug_bytes({now, -1, {bd_metric(now)}}), 0);
-    (void)MQTTClient_disconnect(client, 500);
+    (void)MQTTClient_disconnect(client.get(), 500);
   }
 };
 

@@ -109,17 +109,28 @@ Json status_bits() {
   return out;
 }
 
-/// Who sends datagrams of no valve of the site.
-Json unknown_of(const Engine& engine) {
+/// Who sends samples of no valve of the site.
+Json unknown_of(const std::vector<UnknownSender>& senders, const char* pieces) {
   Json out = Json::array();
-  for (const UnknownSender& one : engine.unknown_senders()) {
+  for (const UnknownSender& one : senders) {
     out.push_back({{"valve", one.valve},
-                   {"sender", one.host},
+                   {"sender", one.sender},
                    {"first", utc(one.first_ms)},
                    {"last", utc(one.last_ms)},
-                   {"datagrams", one.datagrams}});
+                   {pieces, one.pieces}});
   }
   return out;
+}
+
+/// Of the broker that samples come from.
+Json mqtt_source_of(const Engine& engine) {
+  if (engine.messages() == nullptr) return nullptr;
+  const MessageCounters counters = engine.messages()->counters();
+  return {{"broker", engine.site().mqtt_source->broker.address},
+          {"connected", counters.connected},
+          {"messages", counters.messages},
+          {"unknown_valve", counters.unknown_valve},
+          {"unknown", unknown_of(engine.messages()->unknown_senders(), "messages")}};
 }
 
 /// Of what goes out beside the page; each name once.
@@ -210,7 +221,8 @@ std::string site_json(const Engine& engine) {
              {"unreadable", udp.unreadable},
              {"unknown_valve", udp.unknown_valve},
              {"not_allowed", udp.not_allowed},
-             {"unknown", unknown_of(engine)}}}});
+             {"unknown", unknown_of(engine.unknown_senders(), "datagrams")}}},
+           {"mqtt_source", mqtt_source_of(engine)}});
 }
 
 }  // namespace spoolflow::live

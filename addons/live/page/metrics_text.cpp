@@ -125,6 +125,11 @@ std::string metrics_text(const Engine& engine) {
   single("spoolflow_udp_unreadable_total", "Datagrams that are none of spoolflow.", udp.unreadable);
   single("spoolflow_udp_unknown_valve_total", "Datagrams of no valve of this site.", udp.unknown_valve);
   single("spoolflow_udp_not_allowed_total", "Datagrams from addresses that may not send.", udp.not_allowed);
+  if (engine.messages() != nullptr) {
+    const MessageCounters messages = engine.messages()->counters();
+    single("spoolflow_mqtt_messages_total", "Messages that came from the broker.", messages.messages);
+    single("spoolflow_mqtt_unknown_valve_total", "Messages of no valve of this site.", messages.unknown_valve);
+  }
   return out;
 }
 

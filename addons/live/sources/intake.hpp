@@ -28,6 +28,8 @@ class Intake {
   /// All that is there, in order; never waits. `blocks` is emptied first.
   void take(std::vector<SampleBlock>& blocks);
 
+  /// Samples that came in whole and were dropped on the way to it.
+  void count_dropped(std::uint64_t samples) { received_ += samples, dropped_ += samples; }
   void count_repeated(std::uint64_t samples) { repeated_ += samples; }
   void count_unreadable(std::uint64_t pieces) { unreadable_ += pieces; }
   void count_connection() { ++connections_; }

@@ -107,29 +107,6 @@ UdpCounters UdpReceiver::counters() const {
   return {datagrams_, unreadable_, unknown_valve_, not_allowed_};
 }
 
-std::vector<UnknownSender> UdpReceiver::unknown_senders() const {
-  const std::lock_guard lock(unknown_mutex_);
-  return unknown_;
-}
-
-void UdpReceiver::note_unknown(const std::string& valve, const std::string& host) {
-  std::string shown = valve;
-  std::replace_if(
-      shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  const std::int64_t now_ms = wall_ms();
-  const std::lock_guard lock(unknown_mutex_);
-  auto same = std::find_if(unknown_.begin(), unknown_.end(),
-                           [&](const UnknownSender& one) { return one.valve == shown && one.host == host; });
-  if (same == unknown_.end()) {
-    if (unknown_.size() == most_unknown)
-      unknown_.erase(std::ranges::min_element(unknown_, {}, &UnknownSender::last_ms));
-    unknown_.push_back({shown, host, now_ms, now_ms, 0});
-    same = std::prev(unknown_.end());
-  }
-  same->last_ms = now_ms;
-  ++same->datagrams;
-}
-
 void UdpReceiver::receive(std::span<const std::uint8_t> bytes, const sockaddr_storage& peer) {
   auto read = read_datagram(bytes);
   Datagram* const datagram = std::get_if<Datagram>(&read);
@@ -140,7 +117,7 @@ void UdpReceiver::receive(std::span<const std::uint8_t> bytes, const sockaddr_st
   const auto sender = senders_.find(datagram->valve);
   if (sender == senders_.end()) {
     ++unknown_valve_;
-    note_unknown(datagram->valve, peer_host(peer));
+    unknown_.note(datagram->valve, peer_host(peer));
     return;
   }
   SampleBlock block = sender->second.order.next(std::move(*datagram), *sender->second.intake);

@@ -1,7 +1,6 @@
 #pragma once
 /// One UDP socket for all valves of a site that send datagrams; each finds its intake by the valve's id.
 #include <map>
-#include <mutex>
 #include <string>
 #include <sys/socket.h>
 #include <thread>
@@ -10,6 +9,7 @@
 #include "addons/live/sources/datagram.hpp"
 #include "addons/live/sources/intake.hpp"
 #include "addons/live/sources/socket.hpp"
+#include "addons/live/sources/unknown_senders.hpp"
 
 namespace spoolflow::live {
 
@@ -53,14 +53,6 @@ struct UdpCounters {
   std::uint64_t not_allowed = 0;  ///< from an address that may not send
 };
 
-/// Datagrams of an id that no valve of the site has, from one machine.
-struct UnknownSender {
-  std::string valve;                       ///< as it came; bytes beyond printable ASCII as '?'
-  std::string host;                        ///< numeric address
-  std::int64_t first_ms = 0, last_ms = 0;  ///< when they came, since 1970-01-01 UTC
-  std::uint64_t datagrams = 0;
-};
-
 class UdpReceiver {
  public:
   /// `allowed`: addresses that may send; empty: any (loopback only, which the site's settings see to). Throws
@@ -68,9 +60,7 @@ class UdpReceiver {
   UdpReceiver(const Address& address, std::vector<std::string> allowed, const std::vector<UdpValve>& valves);
   [[nodiscard]] std::uint16_t port() const { return socket_.port; }
   [[nodiscard]] UdpCounters counters() const;
-  static constexpr std::size_t most_unknown = 32;  ///< further ones take the place of those that are silent for longest
-  /// In the order in which they were seen first.
-  [[nodiscard]] std::vector<UnknownSender> unknown_senders() const;
+  [[nodiscard]] std::vector<UnknownSender> unknown_senders() const { return unknown_.all(); }
 
  private:
   struct Sender {
@@ -79,14 +69,12 @@ class UdpReceiver {
   };
   void run(const std::stop_token& stop);
   void receive(std::span<const std::uint8_t> bytes, const sockaddr_storage& peer);
-  void note_unknown(const std::string& valve, const std::string& host);
 
   BoundSocket socket_;
   std::vector<std::string> allowed_;
   std::map<std::string, Sender, std::less<>> senders_;
   std::atomic<std::uint64_t> datagrams_ = 0, unreadable_ = 0, unknown_valve_ = 0, not_allowed_ = 0;
-  mutable std::mutex unknown_mutex_;
-  std::vector<UnknownSender> unknown_;
+  UnknownSenders unknown_;
   std::jthread thread_;  ///< last: it uses the others
 };
 

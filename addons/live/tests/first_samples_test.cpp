@@ -173,13 +173,13 @@ TEST_F(Strangers, AreListedWithTheirSender) {
   const auto seen = engine.unknown_senders();
   ASSERT_EQ(seen.size(), 2U);
   EXPECT_EQ(seen[0].valve, "press_9");
-  EXPECT_EQ(seen[0].host, "127.0.0.1");
-  EXPECT_EQ(seen[0].datagrams, 2U);
+  EXPECT_EQ(seen[0].sender, "127.0.0.1");
+  EXPECT_EQ(seen[0].pieces, 2U);
   EXPECT_LE(seen[0].first_ms, seen[0].last_ms);
   EXPECT_EQ(seen[1].valve, "pr?ss");
-  for (std::size_t k = 0; k < UdpReceiver::most_unknown; ++k) send("x" + std::to_string(k));
-  ASSERT_TRUE(comes_true([&] { return engine.udp_counters().unknown_valve == 3 + UdpReceiver::most_unknown; }));
-  EXPECT_EQ(engine.unknown_senders().size(), UdpReceiver::most_unknown);
+  for (std::size_t k = 0; k < UnknownSenders::most; ++k) send("x" + std::to_string(k));
+  ASSERT_TRUE(comes_true([&] { return engine.udp_counters().unknown_valve == 3 + UnknownSenders::most; }));
+  EXPECT_EQ(engine.unknown_senders().size(), UnknownSenders::most);
   EXPECT_EQ(engine.unknown_senders().back().valve, "x31");
 }
 
