@@ -44,7 +44,7 @@ void Store::keep_on_disk() {
   open_one().run("PRAGMA synchronous=FULL");
 }
 
-void Store::keep_again(const std::vector<Event>& events, const std::vector<Alarm>& alarms) {
+void Store::keep_again(const std::vector<Event>& events, const std::vector<Alarm>& alarms, const ToldTexts& told) {
   needs_states_ = true;
   Transaction whole(open_one());
   Statement add(
@@ -60,6 +60,7 @@ void Store::keep_again(const std::vector<Event>& events, const std::vector<Alarm
         .run();
   }
   keep_alarms(*database_, alarms, newest().run_ms);
+  keep_told(*database_, told);
   whole.commit();
 }
 

@@ -1,6 +1,7 @@
 #include "addons/live/notify/alarm_news.hpp"
 
 #include <algorithm>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -84,6 +85,40 @@ GatheredNews::GatheredNews(const std::vector<Alarm>& alarms, Ne107 least) : leas
     const Ne107 sign = sign_named(alarm.sign);
     known_[alarm.id] = {alarm.times, sign, alarm.gone_ms != 0, alarm.shelved_until_ms != 0, sign >= least_};
   }
+}
+
+/// Lines "known ID TIMES SIGN GONE SHELVED NOTICED", "news ID KIND" and "left_out COUNT".
+GatheredNews::GatheredNews(const std::string& written, const std::vector<Alarm>& alarms, Ne107 least) : least_(least) {
+  std::istringstream lines(written);
+  std::string what;
+  std::int64_t id = 0;
+  while (lines >> what >> id) {
+    if (what == "known") {
+      Known one;
+      int sign = 0;
+      lines >> one.times >> sign >> one.is_gone >> one.is_shelved >> one.is_noticed;
+      one.sign = static_cast<Ne107>(std::clamp(sign, 0, static_cast<int>(Ne107::failure)));
+      known_[id] = one;
+    } else if (what == "news") {
+      int kind = 0;
+      lines >> kind;
+      const auto alarm = std::ranges::lower_bound(alarms, id, {}, &Alarm::id);
+      if (alarm == alarms.end() || alarm->id != id) continue;
+      add(static_cast<Kind>(std::clamp(kind, 0, static_cast<int>(Kind::raised_and_gone))), *alarm);
+    } else {
+      left_out_ = static_cast<std::size_t>(std::max<std::int64_t>(id, 0));
+    }
+  }
+}
+
+std::string GatheredNews::written() const {
+  std::string out = fmt::format("left_out {}\n", left_out_);
+  for (const auto& [id, one] : known_) {
+    out += fmt::format("known {} {} {} {:d} {:d} {:d}\n", id, one.times, static_cast<int>(one.sign), one.is_gone,
+                       one.is_shelved, one.is_noticed);
+  }
+  for (const AlarmNews& one : news_) out += fmt::format("news {} {}\n", one.alarm.id, static_cast<int>(one.kind));
+  return out;
 }
 
 void GatheredNews::add(Kind kind, const Alarm& alarm) {

@@ -25,6 +25,10 @@ class GatheredNews {
 
   /// What is known of `alarms` is no news. Alarms of less than `least` are none either.
   GatheredNews(const std::vector<Alarm>& alarms, monitor::Ne107 least);
+  /// As it was where written() gave that text; of `alarms` those that it does not know are news with the next look.
+  GatheredNews(const std::string& written, const std::vector<Alarm>& alarms, monitor::Ne107 least);
+  /// All that it knows and that waits, without what the list of alarms has.
+  [[nodiscard]] std::string written() const;
   /// Looks at the list as it is now. Returns how many were pushed out.
   std::size_t look(const std::vector<Alarm>& alarms);
   [[nodiscard]] const std::vector<AlarmNews>& news() const { return news_; }

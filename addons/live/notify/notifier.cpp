@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <map>
 #include <optional>
 #include <thread>
 #include <unistd.h>
@@ -35,11 +36,18 @@ std::string site_name(const SiteSettings& site) {
   return name.data();
 }
 
+/// What it was told before, where the store says so; else it knows all that there is.
+GatheredNews gathered_of(Engine& engine, const std::string& name, monitor::Ne107 least) {
+  const std::optional<std::string> told = engine.told().of(name);
+  return told ? GatheredNews(*told, engine.alarms(), least) : GatheredNews(engine.alarms(), least);
+}
+
 }  // namespace
 
 struct Notifier::Receiver {
   Engine& engine;
   const NotifySettings& settings;
+  std::string name;  ///< to the store
   std::string site;
   std::shared_ptr<Output> output;
   GatheredNews gathered;
@@ -48,12 +56,13 @@ struct Notifier::Receiver {
   std::optional<Clock::time_point> due{};
   std::jthread thread{};
 
-  Receiver(Engine& of, const NotifySettings& with, std::string output_name)
+  Receiver(Engine& of, const NotifySettings& with, std::string output_name, std::string name_to_store)
       : engine(of),
         settings(with),
+        name(std::move(name_to_store)),
         site(site_name(of.site())),
         output(of.outputs().add(output_name)),
-        gathered(of.alarms(), with.least),
+        gathered(gathered_of(of, name, with.least)),
         wait_s(with.retry_s) {
     thread = std::jthread([this](const std::stop_token& stop) { run(stop); });
   }
@@ -61,6 +70,7 @@ struct Notifier::Receiver {
   void look() {
     output->dropped += gathered.look(engine.alarms());
     output->waiting = gathered.news().size();
+    engine.told().set(name, gathered.written());
     if (gathered.news().empty()) {
       due.reset();
     } else if (!due) {
@@ -77,6 +87,7 @@ struct Notifier::Receiver {
       if (!trouble.empty()) engine.note(fmt::format("{}: messages of alarms go out again", settings.name));
       ++output->sent;
       gathered.clear();
+      engine.told().set(name, gathered.written());
       output->waiting = 0;
       due.reset();
       wait_s = settings.retry_s;
@@ -109,15 +120,18 @@ struct Notifier::Receiver {
       if (parallel::wait_for(last_patience, done)) enough.request_stop();
     });
     if (send(enough.get_token())) return;
-    engine.note(fmt::format("{}: {} alarms were in no message when the program ended", settings.name,
-                            gathered.news().size() + gathered.left_out()));
+    engine.note(fmt::format("{}: {} alarms were in no message when the program ended{}", settings.name,
+                            gathered.news().size() + gathered.left_out(),
+                            engine.site().store.empty() ? "" : "; the store keeps them for the next start"));
   }
 };
 
 Notifier::Notifier(Engine& engine) {
   const std::vector<NotifySettings>& all = engine.site().notify;
+  std::map<std::string, int> of_the_name;
   for (std::size_t k = 0; k < all.size(); ++k) {
-    receivers_.push_back(std::make_unique<Receiver>(engine, all[k], fmt::format("notify_{}", k + 1)));
+    const std::string name = fmt::format("{} {}", all[k].name, ++of_the_name[all[k].name]);
+    receivers_.push_back(std::make_unique<Receiver>(engine, all[k], fmt::format("notify_{}", k + 1), name));
   }
 }
 

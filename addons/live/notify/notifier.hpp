@@ -11,9 +11,10 @@ namespace spoolflow::live {
 
 class Notifier {
  public:
-  /// Alarms that are listed are known: a new start repeats no message. The engine outlives it.
+  /// Goes on with what the store says that each receiver was told; without it, alarms that are listed are known. The
+  /// engine outlives it.
   explicit Notifier(Engine& engine);
-  /// What waits is tried once more, for 3 s at most; what does not go out becomes an event.
+  /// What waits is tried once more, for 3 s at most; what does not go out becomes an event, and the store keeps it.
   ~Notifier();
   Notifier(const Notifier&) = delete;
   Notifier& operator=(const Notifier&) = delete;

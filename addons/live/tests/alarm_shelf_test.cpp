@@ -148,6 +148,23 @@ TEST_F(News, AreNoneOfLessThanAskedFor) {
   EXPECT_EQ(failures.news()[0].kind, AlarmNews::Kind::raised);
 }
 
+TEST_F(News, GoOnWhereTheyWereWritten) {
+  (void)look(true);
+  GatheredNews next(gathered.written(), alarms.all(), Ne107::maintenance_required);
+  EXPECT_EQ(next.look(alarms.all()), 0U);
+  ASSERT_EQ(next.news().size(), 1U);
+  EXPECT_EQ(next.news()[0].kind, AlarmNews::Kind::raised);
+  next.clear();
+  GatheredNews told(next.written(), alarms.all(), Ne107::maintenance_required);
+  (void)told.look(alarms.all());
+  EXPECT_THAT(told.news(), IsEmpty());
+  (void)look(false);
+  (void)told.look(alarms.all());  // what happened while nobody looked is news
+  ASSERT_EQ(told.news().size(), 1U);
+  EXPECT_EQ(told.news()[0].kind, AlarmNews::Kind::gone);
+  EXPECT_THAT(GatheredNews("rubbish", alarms.all(), Ne107::maintenance_required).news(), IsEmpty());
+}
+
 TEST_F(News, AreBounded) {
   std::vector<Alarm> many(GatheredNews::most + 7);
   for (std::size_t k = 0; k < many.size(); ++k) {

@@ -182,6 +182,23 @@ try:
         assert 'spoolflow_alarms_shelved 0' in heard and TOKEN not in heard and PASSWORD not in heard
         assert TOKEN not in live.heard() and PASSWORD not in live.heard()
 
+    # the webhook fails while press_2 falls silent, and the program is killed: the next start sends what was not sent
+    live = Live(command, folder, "site.toml")
+    before = len(news("valve"))
+    sender = Sender({one["id"]: one["source"].get("port") for one in asked("/api/v1/valves")["valves"]}["press_2"])
+    until("the message that press_2 is back", lambda: news("valve")[before:])
+    Hook.tries, Hook.fails = 0, 10 ** 9
+    sender.ends.set()
+    until("a message that fails", lambda: Hook.tries > 1)
+    time.sleep(1.5)  # a commit
+    live.process.kill()
+    live.process.wait()
+    Hook.fails = 0
+    with Live(command, folder, "site.toml") as live:
+        until("the message of before", lambda: news("valve")[before + 1:])
+        time.sleep(3)  # none comes twice
+    assert news("valve", "change")[before:] == [[("press_2", "gone")], [("press_2", "raised again")]], Hook.got
+
     print(f"{len(Hook.got)} messages to the webhook, {len(Letters.got)} by mail")
 finally:
     shutil.rmtree(folder)
