@@ -13,6 +13,7 @@
 #include "addons/live/page/alarm_orders.hpp"
 #include "addons/live/page/api_text.hpp"
 #include "addons/live/page/history_text.hpp"
+#include "addons/live/page/model_text.hpp"
 #include "addons/live/page/page_files.hpp"
 #include "addons/live/page/plot_frame.hpp"
 
@@ -143,6 +144,15 @@ std::optional<PageAnswer> days_of(const Engine& engine, std::string_view path, s
   return indicators ? indicator_days(engine, *valve, *span, stop) : flow_days(engine, *valve, *span, stop);
 }
 
+/// /api/v1/valves/ID/model; nothing where it is another path.
+std::optional<PageAnswer> model_asked(const Engine& engine, std::string_view path) {
+  const auto asked = valve_asked(path, "model");
+  if (!asked) return std::nullopt;
+  const auto valve = place_of(engine, *asked);
+  return valve ? PageAnswer{200, json, model_json(engine, *valve)}
+               : PageAnswer{404, plain, "there is no valve of this name\n"};
+}
+
 /// What reads the store.
 bool is_long(std::string_view path) {
   return valve_asked(path, "indicators") || valve_asked(path, "history") || path.starts_with("/api/v1/recordings") ||
@@ -184,6 +194,7 @@ PageAnswer found(const Engine& engine, std::string_view path) {
     if (!valve) return {404, plain, "there is no valve of this name\n"};
     return {200, json, valve_json(engine, *valve)};
   }
+  if (auto model = model_asked(engine, path)) return std::move(*model);
   if (path == "/api/v1/events") return {200, json, events_json(engine)};
   if (path == "/api/v1/alarms") return {200, json, alarms_json(engine)};
   if (path == "/api/v1/recordings") return {200, json, recordings_json(engine)};

@@ -58,7 +58,7 @@ password_file = "password"
   EXPECT_EQ(site.can->auxiliary_valve.at("press_1"), 3);
   EXPECT_EQ(site.can->node.at("press_1"), 17);
   EXPECT_EQ(site.modbus->listen.port, 1502);
-  EXPECT_EQ(site.mqtt->password_file, path("password"));
+  EXPECT_EQ(site.mqtt->broker.password_file, path("password"));
 }
 
 TEST_F(FieldbusSettingsTest, NameWhoMayAskByNumbers) {
@@ -67,6 +67,24 @@ TEST_F(FieldbusSettingsTest, NameWhoMayAskByNumbers) {
     EXPECT_THAT(refused("[modbus]\nlisten = \"127.0.0.1:0\"\n" + allow), HasSubstr(words));
     EXPECT_THAT(refused("[sources]\n" + allow), HasSubstr(words));
   }
+}
+
+TEST_F(FieldbusSettingsTest, GiveEachValveTheTopicOfItsSamples) {
+  const std::string
+      valve = "[[valve]]\nid = \"press_2\"\nmodel = \"m.json\"\nsource = { kind = \"mqtt\" }\n",
+      other = "[[valve]]\nid = \"press_3\"\nmodel = \"m.json\"\nsource = { kind = \"mqtt\", topic = \"plc/7\" }\n",
+      broker = "[sources.mqtt]\nbroker = \"tcp://127.0.0.1:1883\"\n", topic = "topic = \"hall/+/samples\"\n";
+  write_site(broker + topic + valve + other);
+  const SiteSettings site = read_site(path("site.toml"));
+  EXPECT_EQ(std::get<MqttTopicSettings>(site.valves[0].source).topic, "hall/press_2/samples");
+  EXPECT_EQ(std::get<MqttTopicSettings>(site.valves[1].source).topic, "plc/7");
+  EXPECT_THAT(refused(valve), HasSubstr("no broker is given; write [sources.mqtt]"));
+  EXPECT_THAT(refused(broker + valve), HasSubstr("'press_2' has no topic"));
+  EXPECT_THAT(refused(broker + "topic = \"hall/samples\"\n" + valve), HasSubstr("one level of it is '+'"));
+  EXPECT_THAT(refused(broker + "topic = \"hall/x+\"\n" + valve), HasSubstr("one level of it is '+'"));
+  EXPECT_THAT(refused(broker + "topic = \"plc/+\"\n" + other +
+                      "[[valve]]\nid = \"7\"\nmodel = \"m.json\"\nsource = { kind = \"mqtt\" }\n"),
+              HasSubstr("'press_3' and '7' have the topic 'plc/7' both"));
 }
 
 TEST_F(FieldbusSettingsTest, SayWhatIsWrongAndWhatToDo) {

@@ -14,7 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::string refusal(const std::string& message) {
+std::string unreadable(const std::string& message) {
   try {
     (void)message_text(message);
   } catch (const std::invalid_argument& error) {
@@ -46,11 +46,11 @@ TEST(MessageText, CsvStandsWithOrWithoutItsHeader) {
 }
 
 TEST(MessageText, SaysWhatIsNoMessage) {
-  EXPECT_THAT(refusal(R"({"x": NaN})"), HasSubstr("no JSON at byte"));
-  EXPECT_THAT(refusal(R"({"a": [1], "b": [1, 2]})"), HasSubstr("columns a and b have 1 and 2 values"));
-  EXPECT_THAT(refusal("[1, 2]"), HasSubstr("no sample"));
-  for (const char* empty : {"", " ", "[]", "{}", "time_s,x\n"}) EXPECT_NE(refusal(empty), "") << empty;
-  EXPECT_THAT(refusal(std::string(largest_message + 1, '1')), HasSubstr("at most 1048576"));
+  EXPECT_THAT(unreadable(R"({"x": NaN})"), HasSubstr("no JSON at byte"));
+  EXPECT_THAT(unreadable(R"({"a": [1], "b": [1, 2]})"), HasSubstr("columns a and b have 1 and 2 values"));
+  EXPECT_THAT(unreadable("[1, 2]"), HasSubstr("no sample"));
+  for (const char* empty : {"", " ", "[]", "{}", "time_s,x\n"}) EXPECT_NE(unreadable(empty), "") << empty;
+  EXPECT_THAT(unreadable(std::string(largest_message + 1, '1')), HasSubstr("at most 1048576"));
 }
 
 class MessageSourceTest : public ::testing::Test {

@@ -88,6 +88,24 @@ export interface Recording {
   why: string;
 }
 
+/** What the valve's model says of itself. */
+export interface ModelHistory {
+  file: string;
+  calibrated: string;
+  simulated: boolean;
+  /** Newest first. */
+  references: { time: string; reasons: string[]; edge_width: number; friction_ratio: number; position_zero_m: number }[];
+  drift_in_30_days: Record<'edge_width' | 'friction' | 'position_zero_m', { value: number; uncertainty_95: number }> | null;
+}
+
+/** Who sends samples of a valve that the site does not know. */
+export interface Stranger {
+  valve: string;
+  sender: string;
+  first: string;
+  last: string;
+}
+
 export interface Site {
   valves: number;
   stalled: number;
@@ -99,7 +117,10 @@ export interface Site {
   /** Of the status word. */
   status_bits: Record<string, number>;
   udp: { port: number; datagrams: number; unreadable: number; unknown_valve: number; not_allowed: number;
-    unknown: { valve: string; sender: string; first: string; last: string; datagrams: number }[] };
+    unknown: (Stranger & { datagrams: number })[] };
+  /** The broker that samples come from. */
+  mqtt_source: { broker: string; connected: boolean; messages: number; unknown_valve: number;
+    unknown: (Stranger & { messages: number })[] } | null;
 }
 
 export interface Session {
@@ -172,6 +193,7 @@ export interface Recent {
 export const readRecent = async (): Promise<Recent[]> => (await read<{ valves: Recent[] }>('/api/v1/recent')).valves;
 export const readRecordings = async (): Promise<Recording[]> =>
   (await read<{ recordings: Recording[] }>('/api/v1/recordings')).recordings;
+export const readModel = (id: string): Promise<ModelHistory> => read<ModelHistory>(`/api/v1/valves/${encodeURIComponent(id)}/model`);
 export const readSession = (): Promise<Session> => read<Session>('/api/v1/session');
 export const logIn = (name: string, password: string): Promise<Session> => post<Session>('/api/v1/login', { name, password });
 export const logOut = (): Promise<Session> => post<Session>('/api/v1/logout');

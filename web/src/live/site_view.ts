@@ -4,7 +4,7 @@ import { clock, figure, isOpen, severity, type LiveData, type Valve } from './ap
 import { element, row, setText } from './element';
 
 const sourceColumns = ['valve', 'source', 'samples/s', 'age [s]', 'dropped', 'lost', 'repeated', 'unreadable', 'connections', 'trouble'];
-const strangerColumns = ['id', 'sender', 'first', 'last', 'datagrams'];
+const strangerColumns = ['id', 'sender', 'first', 'last', 'times'];
 
 /** Each cell but the first has its column's name, which narrow screens show in front of it. */
 function named(line: HTMLTableRowElement, columns: readonly string[]): HTMLTableRowElement {
@@ -54,6 +54,7 @@ export class SiteView {
   private readonly kept = element('p', 'kept');
   private readonly mended = element('p', 'stale');
   private readonly datagrams = element('p', 'kept');
+  private readonly messages = element('p', 'kept');
   private readonly unknown = element('tbody', '');
   private readonly strangers = element('section', '');
   private readonly rates = new Rates();
@@ -62,9 +63,9 @@ export class SiteView {
   constructor() {
     const head = element('thead', '', row('th', ...sourceColumns));
     this.place.append(element('h2', '', 'Site'), element('div', 'tiles', ...Object.values(this.tiles).map((tile) => tile.place)),
-                      this.kept, this.mended, this.datagrams, element('h3', '', 'Sources'),
+                      this.kept, this.mended, this.datagrams, this.messages, element('h3', '', 'Sources'),
                       element('div', 'wide', element('table', 'sources stacked', head, this.sources)), this.strangers);
-    this.strangers.append(element('h3', '', 'Datagrams of valves that the site does not know'), element('div', 'wide', element('table', 'unknown stacked', element(
+    this.strangers.append(element('h3', '', 'Samples of valves that the site does not know'), element('div', 'wide', element('table', 'unknown stacked', element(
       'thead', '', row('th', ...strangerColumns)), this.unknown)));
   }
 
@@ -80,13 +81,18 @@ export class SiteView {
     this.kept.classList.toggle('stale', site.store_trouble !== '');
     this.mended.hidden = site.store_mended === null;
     setText(this.mended, site.store_mended === null ? '' : `${clock(site.store_mended.time)}: ${site.store_mended.text}`);
-    const { udp } = site;
+    const { udp, mqtt_source: mqtt } = site;
     this.datagrams.hidden = udp.port === 0;
     setText(this.datagrams, `UDP port ${udp.port}: ${udp.datagrams} datagrams, ${udp.unreadable} unreadable, ` +
       `${udp.unknown_valve} of unknown valves, ${udp.not_allowed} not allowed`);
-    this.strangers.hidden = udp.unknown.length === 0;
-    this.unknown.replaceChildren(...udp.unknown.map((one) =>
-      named(row('td', one.valve, one.sender, clock(one.first), clock(one.last), String(one.datagrams)), strangerColumns)));
+    this.messages.hidden = mqtt === null;
+    setText(this.messages, mqtt === null ? '' : `MQTT ${mqtt.broker}: ${mqtt.connected ? 'connected' : 'not connected'}, ` +
+      `${mqtt.messages} messages, ${mqtt.unknown_valve} of unknown valves`);
+    const unknown = [...udp.unknown.map((one) => ({ ...one, pieces: one.datagrams })),
+      ...(mqtt?.unknown ?? []).map((one) => ({ ...one, pieces: one.messages }))];
+    this.strangers.hidden = unknown.length === 0;
+    this.unknown.replaceChildren(...unknown.map((one) =>
+      named(row('td', one.valve, one.sender, clock(one.first), clock(one.last), String(one.pieces)), strangerColumns)));
     for (const valve of valves) this.showSource(valve);
   }
 

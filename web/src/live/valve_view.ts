@@ -6,6 +6,7 @@ import {
 import { element, row, setText } from './element';
 import { EventList } from './event_list';
 import { HistoryView } from './history_view';
+import { ModelView } from './model_view';
 import { Plot } from './plot';
 import { Stream } from './stream';
 
@@ -59,7 +60,7 @@ export class ValveView {
                       table(this.indicators),
                       element('details', '', element('summary', 'soft', 'more indicators'), table(this.more)),
                       element('h3', '', 'Counters'), this.counters, this.days.place,
-                      element('h3', '', 'Source'), this.source, element('h3', '', 'Raw samples around alarms'), this.recordings,
+                      new ModelView(id).place, element('h3', '', 'Source'), this.source, element('h3', '', 'Raw samples around alarms'), this.recordings,
                       element('h3', '', 'Events'), this.events.place);
     this.stale.hidden = true;
     this.stale.setAttribute('role', 'status');
