@@ -150,11 +150,19 @@ class OfDirection {
     }
     return known.size();
   }
+  /// Any recording with a force sensor.
+  [[nodiscard]] bool measures_force() const {
+    return has(Protocol::spring) || has(Protocol::solenoid_force_map) || has(Protocol::solenoid_dynamic) ||
+           has(Protocol::axial_force_map);
+  }
   void add_temperatures(std::vector<NeededRecording>& to, Protocol protocol) const {
     constexpr std::size_t enough = 3;
-    const std::size_t known = temperatures(protocol);
-    for (std::size_t k = std::max<std::size_t>(1, known); k < enough; ++k)
-      to.push_back(needed(protocol, "at another oil temperature, 15 K or more from the others: viscosity"));
+    const std::size_t known = std::max<std::size_t>(1, temperatures(protocol));
+    if (known >= enough) return;
+    to.push_back(needed(protocol, known + 1 == enough
+                                      ? "at another oil temperature, 15 K or more from the others: viscosity"
+                                      : "at two other oil temperatures, 15 K or more apart: viscosity"));
+    to.back().minutes *= static_cast<double>(enough - known);
   }
 
  private:
@@ -162,13 +170,15 @@ class OfDirection {
   std::vector<const Recorded*> of_;
 };
 
+/// Beside some force recording a flow bench shows what others are missing for.
 void add_force_benches(ModelNeeds& to, const OfDirection& of) {
-  const bool on_flow_bench = of.meters_with_voltage();
-  if (!of.has(Protocol::spring) && !of.has(Protocol::unpressurised_strokes))
+  const bool mixed = of.measures_force();
+  const bool on_flow_bench = mixed && of.meters_with_voltage();
+  if (!of.has(Protocol::spring) && !(mixed && of.has(Protocol::unpressurised_strokes)))
     to.missing.push_back(of.needed(Protocol::spring, "the springs"));
   if (!of.has(Protocol::solenoid_force_map) && !on_flow_bench)
     to.missing.push_back(of.needed(Protocol::solenoid_force_map, "the magnetic force"));
-  if (!of.has(Protocol::axial_force_map) && !of.has(Protocol::metering))
+  if (!of.has(Protocol::axial_force_map) && !(mixed && of.has(Protocol::metering)))
     to.missing.push_back(of.needed(Protocol::axial_force_map, "flow force and conductance"));
   if (!of.has(Protocol::solenoid_dynamic) && !on_flow_bench)
     to.better.push_back(of.needed(Protocol::solenoid_dynamic, "hysteresis and eddy currents: the full sensor"));

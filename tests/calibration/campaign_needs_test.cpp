@@ -89,13 +89,22 @@ TEST(CampaignNeeds, AFlowBenchIsWholeWithStrokesAndLacksTheMagneticForceWithoutV
   Recorded dry = recorded_by(strokes({0, 0}, 12), Protocol::unpressurised_strokes);
   Recorded metering = recorded_by(strokes({1e6, 3e6, 6e6}, 12), Protocol::metering);
   EXPECT_THAT(needs_of({dry, metering})[1].missing, IsEmpty());
-  EXPECT_THAT(protocols(needs_of({dry, metering})[1].better),
-              ElementsAre(Protocol::metering, Protocol::metering, Protocol::operation))
-      << "two more oil temperatures, and the valve at work";
+  EXPECT_THAT(protocols(needs_of({dry, metering})[1].better), ElementsAre(Protocol::metering, Protocol::operation))
+      << "at more oil temperatures, and the valve at work";
+  EXPECT_DOUBLE_EQ(needs_of({dry, metering})[1].better.front().minutes, 8) << "two of them";
   metering.voltage = false;
   EXPECT_THAT(protocols(needs_of({dry, metering})[1].missing), ElementsAre(Protocol::metering));
   const Recorded map{Protocol::solenoid_force_map};
   EXPECT_THAT(needs_of({dry, metering, map})[1].missing, IsEmpty()) << "a force map shows it as well";
+}
+
+TEST(CampaignNeeds, AFlowBenchAloneIsNoForceBenchAndTakesTheirPlaceBesideOne) {
+  const Recorded dry = recorded_by(strokes({0, 0}, 12), Protocol::unpressurised_strokes);
+  const Recorded metering = recorded_by(strokes({1e6, 3e6, 6e6}, 12), Protocol::metering);
+  EXPECT_THAT(protocols(needs_of({dry, metering})[0].missing),
+              ElementsAre(Protocol::spring, Protocol::solenoid_force_map, Protocol::axial_force_map));
+  const Recorded map{Protocol::solenoid_force_map};
+  EXPECT_THAT(needs_of({dry, metering, map})[0].missing, IsEmpty());
 }
 
 TEST(CampaignNeeds, ASecondDirectionNeedsItsOwn) {

@@ -81,6 +81,18 @@ void require_comparable(const std::vector<model::Model>& units) {
   }
 }
 
+/// Two campaigns never measure the same to the last digit.
+void require_each_once(const std::vector<model::Model>& units, const std::vector<Eigen::VectorXd>& found) {
+  for (std::size_t k = 1; k < units.size(); ++k) {
+    const auto same = std::find(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(k), found[k]) - found.begin();
+    if (static_cast<std::size_t>(same) == k) continue;
+    throw CalibrationError(fmt::format(
+        "{} and {} measured the same to the last digit: the same recordings under two names show no spread; give each "
+        "unit's own campaign",
+        units[static_cast<std::size_t>(same)].valve.name, units[k].valve.name));
+  }
+}
+
 /// A unit of another type among them, by name.
 void require_one_type(const std::vector<model::Model>& units, const Population& middle, const Deviations& tolerances) {
   for (std::size_t unit = 0; unit < units.size(); ++unit) {
@@ -126,6 +138,7 @@ SeveralUnits compare_units(const std::vector<model::Model>& units, const Deviati
     return population_of(likelihoods, prior.covariance);
   };
   Population middle = beside(0);
+  require_each_once(units, middle.units);
   require_one_type(units, middle, tolerances);
   SeveralUnits out{nearest_to(middle), {}, {}, {}};
   if (out.nearest != 0) middle = beside(out.nearest);

@@ -29,8 +29,8 @@ struct SeveralUnits {
 /// fitted by unit_parameters() of one of them; expectation and maximisation find middle and spread, the spread with
 /// `tolerances` for prior (inverse Wishart). Rows of one table count as a few, for a bench errs alike at neighbouring
 /// points. Tables do not show position zero, which keeps its tolerance. Throws CalibrationError by name: fewer than
-/// `least_units`, models without the full sensor or of a whole valve or of types, of another stroke or rated flow, or
-/// a unit further from the others than `foreign_deviations` of the tolerances.
+/// `least_units`, models without the full sensor or of a whole valve or of types, of another stroke or rated flow, one
+/// unit twice, or a unit further from the others than `foreign_deviations` of the tolerances.
 [[nodiscard]] SeveralUnits compare_units(const std::vector<model::Model>& units, const Deviations& tolerances);
 
 /// The type that these units are of: the tables of its middle, a band for the next unit.

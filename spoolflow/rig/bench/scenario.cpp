@@ -138,6 +138,7 @@ Scenario read_scenario(const std::filesystem::path& file) {
   add_bench_choices(settings, scenario, choices);
   settings.add("machine", scenario.machine);
   apply(source, settings);
+  check_spread(source.name, scenario.valve);
   take(choices, source.name, scenario);
   check_machine(source.name, scenario);
   return scenario;

@@ -20,6 +20,7 @@ void overlay(const SettingsSource& source, const Settings& beside, ValveUnderTes
   settings.add_choice("preset", valve_presets(), [](std::size_t) {});
   add_valve_settings(settings, valve);
   apply(source, settings);
+  check_spread(source.name, valve);
 }
 
 }  // namespace
@@ -57,6 +58,14 @@ ValveUnderTest read_valve(const std::filesystem::path& file, const Settings& bes
   ValveUnderTest valve = valve_preset(preset, beside);
   overlay(source, beside, valve);
   return valve;
+}
+
+void check_spread(const std::string& source, const ValveUnderTest& valve) {
+  if (valve.spread_seed == 0 || valve.spread.amount > 0) return;
+  throw SettingsError(
+      fmt::format("{}: [spread] seed = {} draws nothing, for amount is 0, as it is where none is given; add amount = 1 "
+                  "for a usual series, or leave out seed",
+                  source, valve.spread_seed));
 }
 
 void add_valve_settings(Settings& settings, ValveUnderTest& valve) {

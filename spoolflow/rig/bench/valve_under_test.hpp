@@ -61,6 +61,9 @@ struct ValveUnderTest {
 /// A valve file: `preset` says what it starts from, everything else overrides. Throws SettingsError.
 [[nodiscard]] ValveUnderTest read_valve(const std::filesystem::path& file, const Settings& beside = {});
 
+/// Throws SettingsError, which names `source`, where [spread] has a seed and draws nothing by it.
+void check_spread(const std::string& source, const ValveUnderTest& valve);
+
 /// Every key of a valve but `preset`; scenario files hold them as well.
 void add_valve_settings(Settings& settings, ValveUnderTest& valve);
 

@@ -97,6 +97,18 @@ TEST(SeveralUnits, WhoseTypeCalibratesUnitsAsAnyOther) {
   EXPECT_GT(type.observer->parameters.environment.force_N, 0.3);
 }
 
+TEST(SeveralUnits, OneUnitUnderTwoNamesIsNamed) {
+  std::vector<model::Model> units = three(0.02);
+  units.push_back(units[1]);
+  units.back().valve.name = "U1 again";
+  try {
+    (void)compare_units(units, tolerances_from({}));
+    FAIL() << "the spread was found too narrow";
+  } catch (const CalibrationError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("U1 and U1 again measured the same"));
+  }
+}
+
 TEST(SeveralUnits, TwoAreNoTypeAndAValveOfAnotherSpringIsNamed) {
   std::vector<model::Model> units = three(0.02);
   units.pop_back();

@@ -92,5 +92,9 @@ TEST(Scenario, OneValveOfASeriesRunsWithManySeeds) {
   EXPECT_NE(one.run.position_set.at(5), other.run.position_set.at(5));
 }
 
+TEST(Scenario, ASeedOfTheSeriesThatDrawsNothingIsRefused) {
+  EXPECT_THAT(refusal_of("protocol = \"ramps\"\n[spread]\nseed = 41\n"), ::testing::HasSubstr("add amount = 1"));
+}
+
 }  // namespace
 }  // namespace spoolflow::rig
