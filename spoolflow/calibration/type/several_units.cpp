@@ -84,7 +84,8 @@ void require_comparable(const std::vector<model::Model>& units) {
 /// Two campaigns never measure the same to the last digit.
 void require_each_once(const std::vector<model::Model>& units, const std::vector<Eigen::VectorXd>& found) {
   for (std::size_t k = 1; k < units.size(); ++k) {
-    const auto same = std::find(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(k), found[k]) - found.begin();
+    const auto same =
+        std::find(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(k), found[k]) - found.begin();
     if (static_cast<std::size_t>(same) == k) continue;
     throw CalibrationError(fmt::format(
         "{} and {} measured the same to the last digit: the same recordings under two names show no spread; give each "
