@@ -37,6 +37,7 @@ MessageText text_of_csv(std::string_view message) {
     if (out.header.ends_with('\r')) out.header.pop_back();
     message.remove_prefix(std::min(message.size(), first.size() + 1));
   }
+  if (message.find_first_not_of(" \t\r\n") == std::string_view::npos) return out;
   out.rows = message;
   if (!out.rows.empty() && !out.rows.ends_with('\n')) out.rows += '\n';
   out.samples = static_cast<std::size_t>(std::ranges::count(out.rows, '\n'));
@@ -92,6 +93,7 @@ MessageText text_of_samples(const Samples& samples) {
   std::vector<std::string> names;
   for (const auto& [name, value] : samples.front().items())
     if (is_value(value)) names.push_back(name);
+  if (names.empty()) return {};
   MessageText out{header_of(names)};
   for (const Json& sample : samples) {
     if (!sample.is_object()) throw std::invalid_argument("its list holds what is no sample, such as {\"time_s\": 1}");

@@ -95,7 +95,8 @@ TEST_F(MessageSourceTest, CountsWhatItCannotReadAndGoesOn) {
   source.take("{\"time_s\": NaN}");
   EXPECT_EQ(intake.counters().unreadable, 2U);
   source.take(R"({"time_s": 1, "temperature": 3})");  // nothing of a valve
-  EXPECT_TRUE(comes_true([&] { return intake.trouble().find("position") != std::string::npos; })) << intake.trouble();
+  EXPECT_TRUE(comes_true([&] { return intake.trouble().find("current is missing") != std::string::npos; }))
+      << intake.trouble();
   source.take(R"({"time_s": 1, "current_A": 0.5, "position_m": 0.001})");
   EXPECT_TRUE(come(1));
   EXPECT_EQ(intake.trouble(), "");
