@@ -107,7 +107,16 @@ test('an alarm is acknowledged by a button', async () => {
   await page.getByRole('button', { name: /^Acknowledge alarm 1: friction of hall_00\/valve_01000$/ }).click();
   await page.waitForSelector('.alarm[data-state=raised_acknowledged]:has-text("acknowledged by local")');
   await page.waitForFunction((was) => Number(document.querySelector('#alarm-count').textContent) === was - 1, count);
+  const alarm = page.locator('.alarm:has-text("hall_00/valve_01000")');
+  await alarm.locator('.desk summary').click();
+  await alarm.getByRole('textbox').fill('a valve is on its way');
+  await alarm.getByRole('button', { name: 'Comment', exact: true }).click();
+  await alarm.locator('.comments li:has-text("local a valve is on its way")').waitFor();
+  await alarm.getByRole('button', { name: 'Shelve' }).click();
+  await page.waitForSelector('.alarm[data-state=shelved]:has-text("shelved by local until")');
   await picture(page, 'alarms');
+  await alarm.getByRole('button', { name: 'Take off the shelf' }).click();
+  await page.waitForSelector('.alarm[data-state=raised_acknowledged]:has-text("hall_00/valve_01000")');
   assert.deepEqual(complaints, []);
 });
 

@@ -357,6 +357,40 @@ test('a sender in wrong units, and one that no valve expects, are seen on the pa
   await ended(own.child);
 });
 
+test('a valve says how old its model is, what references moved it to, and how fast it drifts', async () => {
+  const model = JSON.parse(readFileSync(join(folder, 'model.json'), 'utf8')), day_ms = 86400e3;
+  const ago = (days) => new Date(Date.now() - days * day_ms).toISOString().replace(/\.\d+Z/, 'Z');
+  model.provenance.created = ago(300);
+  const look = (days, width, friction, zero_m) => ({
+    tool: 'spoolflow 0.1.0', created: ago(days), adapted_from: '0'.repeat(64), files: [], corrections: [],
+    reasons: [`edge width ${width}`], wear: { edge_width: width, friction_ratio: friction, position_zero_m: zero_m, flow_share: 0.01, friction_share: 0.05 },
+  });
+  model.provenance.adaptations = [look(200, 0.02, 1, 0), look(100, 0.04, 1.1, 5e-6), look(3, 0.06, 1.25, 9e-6)];
+  writeFileSync(join(folder, 'moved.json'), JSON.stringify(model));
+  writeFileSync(join(folder, 'moved.toml'), '[page]\nlisten = "127.0.0.1:0"\n[[valve]]\nid = "moved"\nmodel = "moved.json"\n' +
+    'source = { kind = "rig" }\n[[valve]]\nid = "fresh"\nmodel = "model.json"\nsource = { kind = "rig" }\n');
+  const own = await start('moved.toml');
+  for (const width of [390, 1280]) {
+    const { page, complaints } = await opened('#/valve/moved', { url: own.url, width, height: 844 });
+    const section = page.locator('section:has(> h3:text-is("Model"))');
+    await section.locator('p:has-text("references have looked at it 3 times, the last time 3 days ago")').waitFor({ timeout: 20000 });
+    assert.match(await section.locator('p').textContent(), /^moved\.json, calibrated 300 days ago/);
+    const rows = await section.locator('tbody tr').allTextContents();
+    assert.equal(rows.length, 4);
+    assert.match(rows[0], /drift in 30 days.*\+0\.\d ± \d/);
+    assert.match(rows[1], /\+6\.0\+25\.0\+9\.0$/);
+    await section.scrollIntoViewIfNeeded();
+    const [content, window] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+    assert.ok(content <= window, `${content} px of content at ${width} px`);
+    if (pictures) await section.screenshot({ path: join(pictures, `live_model_${width}.png`) });
+    await page.goto(`${own.url}/#/valve/fresh`);
+    await page.waitForSelector('p:has-text("references have not looked at it since")');
+    assert.deepEqual(complaints, []);
+    await page.context().close();
+  }
+  await ended(own.child);
+});
+
 test('narrow and dark, nothing goes beyond the page', async () => {
   for (const [hash, name] of [['#/', 'overview'], ['#/alarms', 'alarms'], ['#/site', 'site'], ['#/valve/press_1', 'valve']]) {
     for (const [width, colorScheme] of [[390, 'dark'], [1280, 'light'], [1280, 'dark']]) {

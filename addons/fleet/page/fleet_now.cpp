@@ -31,9 +31,10 @@ std::vector<ShownValve> shown_valves(std::vector<ValveNow> valves, const std::ve
     const auto place = places.find(alarm.valve);
     if (place == places.end()) continue;
     ShownValve& valve = out[place->second];
-    if (alarm.acknowledged_ms == 0) ++valve.unacknowledged;
+    const bool counts = alarm.shelved_until_ms == 0;
+    if (counts && alarm.acknowledged_ms == 0) ++valve.unacknowledged;
     if (alarm.gone_ms != 0) continue;
-    ++valve.alarms;
+    if (counts) ++valve.alarms;
     if (severity(alarm.sign) > severity(valve.sign)) valve.sign = alarm.sign;
   }
   return out;

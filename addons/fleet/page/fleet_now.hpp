@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "addons/fleet/page/series_spread.hpp"
+#include "addons/fleet/store/alarm_desk.hpp"
 #include "addons/fleet/store/fleet_view.hpp"
 
 namespace spoolflow::fleet {

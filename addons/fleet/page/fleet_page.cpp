@@ -7,6 +7,7 @@
 #include "addons/fleet/page/fleet_page_files.hpp"
 #include "addons/fleet/page/fleet_text.hpp"
 #include "addons/live/http/target.hpp"
+#include "addons/live/page/alarm_orders.hpp"
 #include "addons/live/page/history_text.hpp"
 #include "addons/live/valve/events.hpp"
 #include "spoolflow/model/model_error.hpp"
@@ -62,10 +63,7 @@ live::PageContent FleetPage::content() {
   return {.name = "spoolflow fleet",
           .answer = [this](std::string_view method, std::string_view target) { return answer(method, target); },
           .is_file = is_page_file,
-          .act =
-              [this](const live::AlarmOrder& order, const std::string& by) {
-                return order.action == "acknowledge" ? acknowledge(order.alarm, by) : std::nullopt;
-              },
+          .act = [this](const live::AlarmOrder& order, const std::string& by) { return act_on_alarm(order, by); },
           .stream = {},
           .is_long = is_long,
           .long_answer = [this](std::string_view method, std::string_view target,
@@ -144,8 +142,28 @@ PageAnswer FleetPage::days_of(std::string_view target) {
   return {200, json, live::indicator_days_json(name, *span, days)};
 }
 
-std::optional<PageAnswer> FleetPage::acknowledge(std::string_view alarm, const std::string& by) {
-  const std::string name = live::unescaped(alarm);
+PageAnswer FleetPage::done(const live::AlarmOrder& order, const AlarmAct& act) {
+  std::optional<live::Alarm> seen;
+  if (order.action == "acknowledge") {
+    seen = acknowledge(session(), act);
+  } else if (order.action == "shelve") {
+    const auto hours = live::hours_asked(order.body);
+    if (!hours) return live::no_hours();
+    seen = shelve(session(), act, act.wall_ms + static_cast<std::int64_t>(3.6e6 * *hours));
+    if (seen && seen->shelved_until_ms == 0 && live::state_of(*seen) == "cleared") return live::is_cleared();
+  } else if (order.action == "unshelve") {
+    seen = unshelve(session(), act);
+  } else {
+    const auto text = live::comment_asked(order.body);
+    if (!text) return live::no_comment();
+    seen = comment(session(), act, *text);
+  }
+  read_.reset();  // the page shows it
+  return seen ? PageAnswer{200, json, alarm_json(*seen)} : PageAnswer{404, plain, "there is no alarm of this name\n"};
+}
+
+std::optional<PageAnswer> FleetPage::act_on_alarm(const live::AlarmOrder& order, const std::string& by) {
+  const std::string name = live::unescaped(order.alarm);
   const std::size_t slash = name.rfind('/');
   if (slash == std::string::npos || name.find('/') == slash) return std::nullopt;
   std::int64_t id = 0;
@@ -153,10 +171,7 @@ std::optional<PageAnswer> FleetPage::acknowledge(std::string_view alarm, const s
   const auto [end, error] = std::from_chars(name.data() + slash + 1, last, id);
   if (error != std::errc() || end != last) return std::nullopt;
   try {
-    const auto seen = fleet::acknowledge(session(), name.substr(0, slash), id, by, live::wall_ms());
-    read_.reset();  // the page shows it
-    if (!seen) return PageAnswer{404, plain, "there is no alarm of this name\n"};
-    return PageAnswer{200, json, alarm_json(*seen)};
+    return done(order, {name.substr(0, slash), id, by, live::wall_ms()});
   } catch (const ContentRefused&) {
     return no_such_text();
   } catch (const ServerAway& why) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The page of a fleet and its interface: reads PostgreSQL, and keeps there who has acknowledged an alarm.
+/// The page of a fleet and its interface: reads PostgreSQL, and keeps there what people do with alarms.
 ///
 ///     fleet::FleetPage fleet(settings);
 ///     const live::PageServer server(fleet.content(), settings.page);
@@ -28,12 +28,13 @@ class FleetPage {
   [[nodiscard]] live::PageAnswer answer(std::string_view method, std::string_view target);
   /// Hours and days of a valve, by a session of its own.
   [[nodiscard]] live::PageAnswer long_answer(std::string_view method, std::string_view target);
-  /// `alarm`: "SITE/ID/NUMBER". Nothing where that is no alarm's name.
-  [[nodiscard]] std::optional<live::PageAnswer> acknowledge(std::string_view alarm, const std::string& by);
+  /// Its alarm: "SITE/ID/NUMBER". Nothing where that is no alarm's name.
+  [[nodiscard]] std::optional<live::PageAnswer> act_on_alarm(const live::AlarmOrder& order, const std::string& by);
 
  private:
   using Clock = std::chrono::steady_clock;
   Session& session();
+  [[nodiscard]] live::PageAnswer done(const live::AlarmOrder& order, const AlarmAct& act);
   [[nodiscard]] live::PageAnswer days_of(std::string_view target);
   [[nodiscard]] live::PageAnswer found(std::string_view path, std::string_view target);
   const std::vector<ShownValve>& valves();

@@ -1,6 +1,5 @@
 #include "addons/fleet/store/fleet_view.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace spoolflow::fleet {
@@ -8,20 +7,6 @@ namespace {
 
 std::uint64_t counted(const Rows& rows, int row, int column) {
   return static_cast<std::uint64_t>(rows.integer(row, column));
-}
-
-live::Alarm alarm_of(const Rows& rows, int row) {
-  live::Alarm out{.id = rows.integer(row, 1), .valve = rows.text(row, 0)};
-  out.cause = rows.text(row, 2);
-  out.sign = rows.text(row, 3);
-  out.raised_ms = rows.integer(row, 4);
-  out.gone_ms = rows.integer(row, 5);
-  out.acknowledged_ms = rows.integer(row, 6);
-  out.acknowledged_by = rows.text(row, 7);
-  out.times = rows.integer(row, 8);
-  out.time_s = rows.real(row, 9);
-  out.text = rows.text(row, 10);
-  return out;
 }
 
 }  // namespace
@@ -75,38 +60,6 @@ std::optional<std::vector<std::uint8_t>> packed_model(Session& session, const st
   const Rows row = session.run("SELECT content FROM model WHERE sha256 = $1", Values().put(std::string_view(sha256)));
   if (row.size() == 0) return std::nullopt;
   return row.bytes(0, 0);
-}
-
-std::vector<live::Alarm> fleet_alarms(Session& session, const std::string& valve, int most_cleared) {
-  const Values whose = Values().put(std::string_view(valve)).put(std::int64_t{most_cleared});
-  const Rows open = session.run(
-      "SELECT * FROM alarm_seen WHERE (gone_ms = 0 OR acknowledged_ms = 0) AND ($1 = '' OR valve = $1) ORDER BY "
-      "raised_ms "
-      "DESC, valve, id LIMIT 20000 + 0 * $2::bigint",
-      whose);
-  std::vector<live::Alarm> out;
-  for (int row = 0; row < open.size(); ++row) out.push_back(alarm_of(open, row));
-  const Rows cleared = session.run(
-      "SELECT * FROM alarm_seen WHERE gone_ms != 0 AND acknowledged_ms != 0 AND ($1 = '' OR valve = $1) ORDER BY "
-      "raised_ms DESC, valve, id LIMIT $2::bigint",
-      whose);
-  for (int row = 0; row < cleared.size(); ++row) out.push_back(alarm_of(cleared, row));
-  std::stable_sort(out.begin(), out.end(),
-                   [](const live::Alarm& a, const live::Alarm& b) { return a.raised_ms > b.raised_ms; });
-  return out;
-}
-
-std::optional<live::Alarm> acknowledge(Session& session, const std::string& valve, std::int64_t alarm,
-                                       const std::string& by, std::int64_t wall_ms) {
-  session.run(
-      "INSERT INTO acknowledgement(valve, alarm, wall_ms, name) SELECT valve, id, $3::bigint, $4 FROM alarm WHERE "
-      "valve "
-      "= $1 AND id = $2 AND acknowledged_ms = 0 ON CONFLICT DO NOTHING",
-      Values().put(std::string_view(valve)).put(alarm).put(wall_ms).put(std::string_view(by)));
-  const Rows found = session.run("SELECT * FROM alarm_seen WHERE valve = $1 AND id = $2",
-                                 Values().put(std::string_view(valve)).put(alarm));
-  if (found.size() == 0) return std::nullopt;
-  return alarm_of(found, 0);
 }
 
 std::vector<live::Event> fleet_events(Session& session, const std::string& valve, int most) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What a page shows of the whole fleet, read from its tables; and that somebody has seen an alarm.
+/// What a page shows of the whole fleet, read from its tables.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -37,14 +37,6 @@ struct IndicatorNow {
 
 /// The packed model file of that hash; nothing where there is none.
 [[nodiscard]] std::optional<std::vector<std::uint8_t>> packed_model(Session& session, const std::string& sha256);
-
-/// All that are not cleared, and the newest of the others; newest first. Acknowledged as soon as somebody has
-/// acknowledged them. `valve`: of one alone; empty: of all.
-[[nodiscard]] std::vector<live::Alarm> fleet_alarms(Session& session, const std::string& valve, int most_cleared);
-/// Keeps that it was seen; its worker takes it with the next commit. One that was acknowledged before stays as it was.
-/// Nothing where there is no such alarm.
-[[nodiscard]] std::optional<live::Alarm> acknowledge(Session& session, const std::string& valve, std::int64_t alarm,
-                                                     const std::string& by, std::int64_t wall_ms);
 
 /// Newest first. `valve`: of one alone; empty: of all.
 [[nodiscard]] std::vector<live::Event> fleet_events(Session& session, const std::string& valve, int most);

@@ -98,8 +98,28 @@ CREATE TABLE set_aside(
 CREATE INDEX set_aside_newest ON set_aside(partition, number);
 )";
 
-/// Workers read and write rows and change no table; readers read; the page acknowledges as well; who asks for batch
-/// work adds pieces and files, and reads no result.
+/// What version 5 has beside: alarms that people have shelved, and what they say of them.
+constexpr const char* fifth_version = R"(
+CREATE TABLE alarm_shelf(
+  valve text NOT NULL, alarm bigint NOT NULL, wall_ms bigint NOT NULL, until_ms bigint NOT NULL, name text NOT NULL,
+  PRIMARY KEY(valve, alarm));
+CREATE TABLE alarm_comment(
+  number bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY, valve text NOT NULL, alarm bigint NOT NULL,
+  wall_ms bigint NOT NULL, name text NOT NULL, text text NOT NULL);
+CREATE INDEX comment_of_alarm ON alarm_comment(valve, alarm, number);
+CREATE OR REPLACE VIEW alarm_seen AS SELECT
+  alarm.valve, id, cause, sign, raised_ms, gone_ms,
+  CASE WHEN acknowledged_ms = 0 THEN coalesce(acknowledgement.wall_ms, 0) ELSE acknowledged_ms END AS acknowledged_ms,
+  CASE WHEN acknowledged_ms = 0 THEN coalesce(acknowledgement.name, '') ELSE acknowledged_by END AS acknowledged_by,
+  times, time_s, text, coalesce(shelf.wall_ms, 0) AS shelved_ms, coalesce(shelf.until_ms, 0) AS shelved_until_ms,
+  coalesce(shelf.name, '') AS shelved_by
+  FROM alarm LEFT JOIN acknowledgement ON acknowledgement.valve = alarm.valve AND acknowledgement.alarm = alarm.id
+  LEFT JOIN alarm_shelf shelf ON shelf.valve = alarm.valve AND shelf.alarm = alarm.id
+    AND shelf.until_ms > 1000 * extract(epoch FROM now());
+)";
+
+/// Workers read and write rows and change no table; readers read; the page also keeps what people do with alarms; who
+/// asks for batch work adds pieces and files, and reads no result.
 constexpr const char* roles = R"(
 DO $$ BEGIN
   IF NOT EXISTS (SELECT FROM pg_roles WHERE rolname = 'spoolflow_worker') THEN CREATE ROLE spoolflow_worker NOLOGIN; END IF;
@@ -119,6 +139,8 @@ GRANT SELECT, INSERT, UPDATE, DELETE ON set_aside TO spoolflow_worker;
 GRANT SELECT ON ALL TABLES IN SCHEMA public TO spoolflow_reader, spoolflow_page;
 REVOKE SELECT ON content_chunk FROM spoolflow_reader, spoolflow_page;
 GRANT INSERT ON acknowledgement TO spoolflow_page;
+GRANT INSERT, UPDATE, DELETE ON alarm_shelf TO spoolflow_page;
+GRANT INSERT, DELETE ON alarm_comment TO spoolflow_page;
 GRANT SELECT, INSERT, DELETE ON content, content_chunk TO spoolflow_worker;
 GRANT SELECT, INSERT ON job_content TO spoolflow_worker;
 GRANT SELECT, DELETE ON job TO spoolflow_worker;
@@ -167,15 +189,17 @@ SchemaWork make_schema(Session& session, const SharedSettings& settings) {
     session.run_script(second_version);
     session.run_script(third_version);
     session.run_script(fourth_version);
+    session.run_script(fifth_version);
     keep_setting(session, "version", static_cast<double>(schema_version));
     keep_setting(session, "partitions", static_cast<double>(settings.partitions));
   }
   const double version = setting(session, "version");
   if (version == 1) session.run_script(second_version);
   if (version == 1 || version == 2) session.run_script(third_version);
-  const bool upgraded = version == 1 || version == 2 || version == 3;
+  if (version == 1 || version == 2 || version == 3) session.run_script(fourth_version);
+  const bool upgraded = version == 1 || version == 2 || version == 3 || version == 4;
   if (upgraded) {
-    session.run_script(fourth_version);
+    session.run_script(fifth_version);
     keep_setting(session, "version", static_cast<double>(schema_version));
   }
   check_version(session);

@@ -5,7 +5,7 @@
 
 namespace spoolflow::fleet {
 
-inline constexpr std::int64_t schema_version = 4;
+inline constexpr std::int64_t schema_version = 5;
 
 /// What all workers must agree in, or their results would differ.
 struct SharedSettings {

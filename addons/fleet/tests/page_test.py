@@ -108,6 +108,43 @@ class Page(unittest.TestCase):
         for none, status in (("hall_00/none/1", 404), ("hall_00/1", 405), ("1", 405), ("a/b/c", 405), ("a/b/1%27", 405)):
             self.assertEqual(self.ask(f"/api/v1/alarms/{none}/acknowledge", b"{}")[0], status, none)
 
+    def test_shelves_and_comments_in_the_database(self):
+        before = self.answer_of("/api/v1/sites")["sites"]
+        alarm = self.answer_of("/api/v1/alarms")["alarms"][-1]
+        description = self.answer_of("/api/v1/openapi.json")
+
+        def order(what, body):
+            status, text = self.ask(f"/api/v1/alarms/{alarm['key']}/{what}", json.dumps(body).encode())
+            if status != 200:
+                return status
+            found = json.loads(text)
+            path = "/api/v1/alarms/{site}/{id}/{number}/" + what
+            schema = description["paths"][path]["post"]["responses"]["200"]["content"]["application/json"]["schema"]
+            self.assertEqual(open_api.violations(description, schema, found), [], what)
+            return found
+
+        for what, body in (("shelve", {}), ("shelve", {"hours": 1000}), ("comment", {"text": " "}), ("comment", {"text": "x" * 501})):
+            self.assertEqual(order(what, body), 400, (what, body))
+        shelved = order("shelve", {"hours": 8})
+        self.assertEqual((shelved["state"], shelved["shelved_by"]), ("shelved", "local"))
+        after = self.answer_of("/api/v1/sites")["sites"]
+        self.assertEqual(sum(site["alarms"] for site in after), sum(site["alarms"] for site in before) - 1)
+        self.assertEqual(order("comment", {"text": "a valve is on its way"})["comments"][-1]["text"], "a valve is on its way")
+        listed, = (one for one in self.answer_of(f"/api/v1/alarms?valve={alarm['valve']}")["alarms"] if one["id"] == alarm["id"])
+        self.assertEqual((listed["state"], [(one["by"], one["text"]) for one in listed["comments"]]),
+                         ("shelved", [("local", "a valve is on its way")]))
+        self.assertEqual(order("shelve", {"hours": 1 / 3600})["state"], "shelved")
+        time.sleep(1.2)
+        self.assertEqual(order("comment", {"text": "its time is over"})["state"], alarm["state"])
+        order("shelve", {"hours": 8})
+        self.assertEqual(order("unshelve", {})["state"], alarm["state"])
+        self.assertEqual(self.answer_of("/api/v1/sites")["sites"], before)
+        for k in range(101):
+            order("comment", {"text": str(k)})
+        self.assertEqual([one["text"] for one in order("comment", {"text": "last"})["comments"]], [*map(str, range(2, 101)), "last"])
+        self.assertEqual(self.ask("/api/v1/alarms/hall_00/none/1/shelve", b'{"hours": 1}')[0], 404)
+        self.assertEqual(self.ask(f"/api/v1/alarms/{alarm['key']}/shelve", b'{"hours": 1}', "http://evil.example")[0], 403)
+
     def test_every_path_answers_as_it_is_described(self):
         """And what is described is all that there is: docs/fleet.md lists no other, and unknown members are refused."""
         description = self.answer_of("/api/v1/openapi.json")

@@ -102,7 +102,7 @@ class Upgrade(unittest.TestCase):
         before = self.rows()
         self.assertTrue(all(before.values()))
         for command in ("worker", "fleet --status"):
-            self.assertIn("of version 1, this program knows version 4; run spoolflow fleet --setup",
+            self.assertIn("of version 1, this program knows version 5; run spoolflow fleet --setup",
                           self.fleet(command, status=2))
         self.assertEqual(self.rows(), before)
         self.assertIn("brought to the present version", self.fleet("fleet --setup"))
@@ -133,22 +133,23 @@ class Upgrade(unittest.TestCase):
         return read_block(blocks_of(self.folder, "v0")[0])["session"]
 
     def test_every_way_leads_to_the_same_tables(self):
-        for database in ("fresh", "one", "two", "three", "newer"):
+        for database in ("fresh", "one", "two", "three", "four", "newer"):
             self.postgres.ask(f"CREATE DATABASE {database}")
         self.postgres.ask(sql(1), "one")
-        for version, database in ((1, "two"), (2, "two"), (1, "three"), (2, "three"), (3, "three")):
-            self.postgres.ask(sql(version), database)
-        for database in ("fresh", "one", "two", "three"):
+        for newest, database in enumerate(("two", "three", "four"), 2):
+            for version in range(1, newest + 1):
+                self.postgres.ask(sql(version), database)
+        for database in ("fresh", "one", "two", "three", "four"):
             self.fleet("fleet --setup", database)
         for question in (COLUMNS, GRANTS):
             fresh = self.postgres.ask(question, "fresh")
             self.assertGreater(len(fresh), 50)
-            for database in ("one", "two", "three"):
+            for database in ("one", "two", "three", "four"):
                 self.assertEqual(self.postgres.ask(question, database), fresh, database)
         self.postgres.ask(sql(1), "newer")
         self.postgres.ask("UPDATE setting SET value = '99' WHERE name = 'version'", "newer")
         for command in ("fleet --setup", "fleet --status", "worker"):
-            self.assertIn("of version 99, this program knows version 4; use a newer program",
+            self.assertIn("of version 99, this program knows version 5; use a newer program",
                           self.fleet(command, "newer", status=2))
         self.assertEqual(self.postgres.ask("SELECT value FROM setting WHERE name = 'version'", "newer"), ["99"])
 

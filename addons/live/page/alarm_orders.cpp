@@ -19,7 +19,8 @@ Json member(std::string_view body, const char* name) {
   return asked.is_object() ? asked.value(name, Json()) : Json();
 }
 
-/// A number > 0 of hours, at most a week.
+}  // namespace
+
 std::optional<double> hours_asked(std::string_view body) {
   const Json asked = member(body, "hours");
   if (!asked.is_number()) return std::nullopt;
@@ -27,7 +28,6 @@ std::optional<double> hours_asked(std::string_view body) {
   return hours > 0 && hours <= longest_shelf_h ? std::optional(hours) : std::nullopt;
 }
 
-/// On one line, without blanks at its ends.
 std::optional<std::string> comment_asked(std::string_view body) {
   const Json asked = member(body, "text");
   if (!asked.is_string()) return std::nullopt;
@@ -40,6 +40,20 @@ std::optional<std::string> comment_asked(std::string_view body) {
   return text.size() <= longest_comment ? std::optional(text) : std::nullopt;
 }
 
+PageAnswer no_hours() {
+  return {400, plain, fmt::format("shelve for a time of at most {} hours: {{\"hours\": 8}}\n", longest_shelf_h)};
+}
+
+PageAnswer no_comment() {
+  return {400, plain, fmt::format("a comment is {{\"text\": \"…\"}} of 1 to {} bytes\n", longest_comment)};
+}
+
+PageAnswer is_cleared() {
+  return {409, plain, "the alarm is gone and acknowledged\n"};
+}
+
+namespace {
+
 PageAnswer shown(const std::optional<Alarm>& alarm) {
   if (!alarm) return {404, plain, "there is no alarm of this number\n"};
   return {200, media::json, written(json_of(*alarm))};
@@ -47,10 +61,9 @@ PageAnswer shown(const std::optional<Alarm>& alarm) {
 
 PageAnswer shelved(Engine& engine, std::int64_t id, const AlarmOrder& order, const std::string& by) {
   const auto hours = hours_asked(order.body);
-  if (!hours)
-    return {400, plain, fmt::format("shelve for a time of at most {} hours: {{\"hours\": 8}}\n", longest_shelf_h)};
+  if (!hours) return no_hours();
   const auto alarm = engine.shelve(id, by, *hours);
-  if (alarm && alarm->shelved_until_ms == 0) return {409, plain, "the alarm is gone and acknowledged\n"};
+  if (alarm && alarm->shelved_until_ms == 0) return is_cleared();
   return shown(alarm);
 }
 
@@ -65,8 +78,7 @@ std::optional<PageAnswer> act_on_alarm(Engine& engine, const AlarmOrder& order, 
   if (order.action == "shelve") return shelved(engine, id, order, by);
   if (order.action == "unshelve") return shown(engine.unshelve(id, by));
   const auto text = comment_asked(order.body);
-  if (!text)
-    return PageAnswer{400, plain, fmt::format("a comment is {{\"text\": \"…\"}} of 1 to {} bytes\n", longest_comment)};
+  if (!text) return no_comment();
   return shown(engine.comment(id, by, *text));
 }
 

@@ -39,9 +39,8 @@ export class AlarmDesk {
     this.place.append(head, this.shelf, this.comment);
   }
 
-  /** Alarms of a fleet are shelved and commented at their sites. */
   show(alarm: Alarm): void {
-    this.place.hidden = visitor.session.role !== 'acknowledge' || alarm.comments === undefined || alarm.key !== undefined;
+    this.place.hidden = visitor.session.role !== 'acknowledge' || alarm.comments === undefined;
     const shelved = alarm.state === 'shelved';
     this.back.hidden = !shelved;
     this.shelve.hidden = (this.time.parentElement as HTMLElement).hidden = shelved;
