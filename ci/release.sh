@@ -23,12 +23,13 @@ while [ $# -gt 0 ]; do
   esac
 done
 fail() { echo "ci/release.sh: $*" >&2; exit "${status:-1}"; }
-stated=$(git -C "$root" show HEAD:CMakeLists.txt | sed -n 's/^project(spoolflow VERSION \([0-9.]*\).*/\1/p')
+commit=$(git -C "$root" rev-parse HEAD)
+stated=$(git -C "$root" show "$commit:CMakeLists.txt" | sed -n 's/^project(spoolflow VERSION \([0-9.]*\).*/\1/p')
 [ "$version" = "$stated" ] || status=2 fail "the project is of version $stated: set it in CMakeLists.txt and commit, or ask for that"
 git -C "$root" diff --quiet HEAD || echo "ci/release.sh: what is not committed is left out" >&2
 parts=$(echo "$only" | tr ',' ' ')
 built=$(echo " $parts " | sed 's/ source / /')
-export SOURCE_DATE_EPOCH="$(git -C "$root" log -1 --format=%ct)"
+export SOURCE_DATE_EPOCH="$(git -C "$root" log -1 --format=%ct "$commit")"
 work=$(mkdir -p "$work" && readlink -f "$work")
 out=$work/$version
 
@@ -41,6 +42,7 @@ bare() { # DIR
     tar -C "$work/made" -cf "$work/$suite.part" . && mv "$work/$suite.part" "$work/$suite.tar" && rm -rf "$work/made"
   fi
   rm -rf "$1" && mkdir -p "$1" && tar -C "$1" -xf "$work/$suite.tar"
+  echo force-unsafe-io >"$1/etc/dpkg/dpkg.cfg.d/unsafe-io" # a root that is thrown away needs no disk that keeps up
   # The way to the package archives, and only that, is this machine's.
   cp -L /etc/resolv.conf "$1/etc/resolv.conf" 2>/dev/null || true
   cp /etc/apt/apt.conf.d/*prox* /etc/apt/apt.conf "$1/etc/apt/apt.conf.d/" 2>/dev/null || true
@@ -58,7 +60,7 @@ make_all() { # OUT PLACE: all parts of a clean clone that stands at PLACE, in th
   clone=$bareroot$2
   rm -rf "$clone" && mkdir -p "$(dirname "$clone")"
   git clone -q --no-hardlinks "$root" "$clone"
-  git -C "$clone" checkout -q --detach "$(git -C "$root" rev-parse HEAD)"
+  git -C "$clone" checkout -q --detach "$commit"
   case " $parts " in *" source "*) git -C "$clone" archive --format=tar --prefix="spoolflow-$version/" HEAD | gzip -9n >"$1/spoolflow-$version.tar.gz" ;; esac
   if [ -z "$(echo "$built" | tr -d ' ')" ]; then return; fi
   if [ "$bareroot" ]; then
@@ -90,7 +92,7 @@ case " $parts " in *" core "*)
     fresh=$work/fresh
     bare "$fresh"
     mkdir -p "$fresh/srv/packages" "$fresh/srv/source" && cp "$out"/*_amd64.deb "$fresh/srv/packages"
-    git -C "$root" archive HEAD docs examples tests/docs | tar -C "$fresh/srv/source" -xf -
+    git -C "$root" archive "$commit" docs examples tests/docs | tar -C "$fresh/srv/source" -xf -
     inside "$fresh" sh -euc 'apt-get -qq update && apt-get -qq install -y --no-install-recommends python3 /srv/packages/*.deb >/dev/null; spoolflow --version
       for walk in $(echo "$1" | tr "," " "); do
         [ "$walk" = none ] || { echo "walk $walk"; /srv/source/tests/docs/walk.sh "/srv/source/docs/walks/$walk.md" /usr/bin/spoolflow /srv/source/examples >/tmp/log 2>&1 || { tail -30 /tmp/log; exit 1; }; }
