@@ -1,7 +1,7 @@
 #!/bin/sh
-# ci/packages.sh [ADDON|firmware|tests|long]…: installs what the core needs (packages.txt) and this machine lacks, and what each add-on
+# ci/packages.sh [ADDON|firmware|tests|long|release]…: installs what the core needs (packages.txt) and this machine lacks, and what each add-on
 # named needs; `firmware`: the compiler for `export c`; `tests`: what all tests need, the add-ons among it; `long`: the long
-# acceptance runs, too.
+# acceptance runs, too; `release`: what `ci/release_parts.sh` needs beside.
 set -eu
 cd "$(dirname "$0")/.."
 lists=packages.txt
@@ -9,6 +9,7 @@ for name in "$@"; do
   case "$name" in
     tests) for addon in formats cross live fleet python; do lists="$lists addons/$addon/packages.txt"; done; lists="$lists addons/cross/firmware_packages.txt tests/packages.txt" ;;
     long) lists="$lists addons/playground/packages.txt tests/packages_long.txt" ;;
+    release) lists="$lists ci/release_packages.txt" ;;
     firmware) lists="$lists addons/cross/firmware_packages.txt" ;;
     fleet) lists="$lists addons/live/packages.txt addons/fleet/packages.txt" ;;
     *) lists="$lists addons/$name/packages.txt" ;;

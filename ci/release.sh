@@ -41,7 +41,7 @@ bare() { # DIR
     rm -f "$work/made"/var/cache/apt/archives/*.deb
     tar -C "$work/made" -cf "$work/$suite.part" . && mv "$work/$suite.part" "$work/$suite.tar" && rm -rf "$work/made"
   fi
-  rm -rf "$1" && mkdir -p "$1" && tar -C "$1" -xf "$work/$suite.tar"
+  rm -rf --one-file-system "$1" && mkdir -p "$1" && tar -C "$1" -xf "$work/$suite.tar"
   echo force-unsafe-io >"$1/etc/dpkg/dpkg.cfg.d/unsafe-io" # a root that is thrown away needs no disk that keeps up
   # The way to the package archives, and only that, is this machine's.
   cp -L /etc/resolv.conf "$1/etc/resolv.conf" 2>/dev/null || true

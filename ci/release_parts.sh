@@ -29,7 +29,7 @@ packed() { # FOLDER NAME
 with=
 needed=
 if asked addons || asked arm64 || asked fmus || asked libraries; then with="formats;cross;live;fleet;python" needed="formats cross live fleet python firmware"; fi
-[ -z "$(echo "$parts" | tr -d ' ')" ] || ci/packages.sh $needed
+ci/packages.sh release $needed
 build=$root/build/release
 # Nothing that is made holds where it was made.
 export CFLAGS="-ffile-prefix-map=$root=." CXXFLAGS="-ffile-prefix-map=$root=."
