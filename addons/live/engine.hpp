@@ -61,8 +61,8 @@ class Engine {
   std::optional<Alarm> comment(std::int64_t alarm, const std::string& by, const std::string& text);
   /// Something of the program itself that people should know: an event, and reported as report_by() sets.
   void note(const std::string& text) { journal_.note(text); }
-  /// What receivers of messages were told; kept where the site has a store.
-  [[nodiscard]] ToldAlarms& told() { return journal_.told; }
+  /// What receivers of messages have; kept where the site has a store.
+  [[nodiscard]] ReportedAlarms& reported() { return journal_.reported; }
   /// The fleet has the valve's blocks up to that number: they need not be kept any longer.
   void covered(const std::string& valve, std::uint64_t number);
   /// How what goes out beside the page fares, and where it is counted.

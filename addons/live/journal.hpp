@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "addons/live/told_alarms.hpp"
+#include "addons/live/reported_alarms.hpp"
 #include "addons/live/valve/alarms.hpp"
 #include "addons/live/valve/events.hpp"
 
@@ -20,7 +20,7 @@ struct Journal {
 
   Events events{};
   Alarms alarms;
-  ToldAlarms told{};
+  ReportedAlarms reported{};
   std::function<void(const std::string&)> report{};  ///< such as at standard error; empty: the page alone
 };
 

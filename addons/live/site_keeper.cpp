@@ -21,7 +21,7 @@ SiteKeeper::SiteKeeper(const SiteSettings& site, const Valves& valves, ValveSour
 void SiteKeeper::restore() {
   journal_.events.restore(store_.events(static_cast<int>(Events::most)));
   journal_.alarms.restore(store_.alarms(Alarms::most_cleared));
-  journal_.told.restore(store_.told());
+  journal_.reported.restore(store_.reported());
   for (const KeptState& kept : store_.states()) {
     const auto same =
         std::find_if(valves_.begin(), valves_.end(), [&](const auto& valve) { return valve->id() == kept.valve; });
@@ -47,7 +47,7 @@ StoreView SiteKeeper::view() const {
 void SiteKeeper::look_after_store(std::int64_t now_ms) {
   if (const std::string done = store_.look_after(now_ms); !done.empty()) mended_ = done;
   if (mended_.empty()) return;
-  store_.keep_again(journal_.events.all(), journal_.alarms.all(), journal_.told.all());
+  store_.keep_again(journal_.events.all(), journal_.alarms.all(), journal_.reported.all());
   journal_.note(mended_);
   const std::lock_guard lock(view_mutex_);
   view_.mended = std::exchange(mended_, {});
@@ -81,13 +81,13 @@ std::string SiteKeeper::commit(const Instant& now, std::vector<ValveCommit>& com
     trouble = error.what();
   }
   std::vector<Event> events = journal_.events.unkept();
-  // Before the alarms: nobody was told of one that is not kept with it.
-  ToldTexts told = journal_.told.take_changed();
+  // Before the alarms: nobody has a message of one that is not kept with it.
+  ReportedTexts reported = journal_.reported.take_changed();
   const std::vector<Alarm> alarms = journal_.alarms.take_changed();
   if (outbox_) outbox_->add_reports(now.wall_ms, commits, events, alarms);
   if (trouble.empty()) {
     try {
-      store_.commit(now, commits, events, alarms, told);
+      store_.commit(now, commits, events, alarms, reported);
       journal_.events.kept(events);
       return {};
     } catch (const StoreError& error) {
@@ -95,7 +95,7 @@ std::string SiteKeeper::commit(const Instant& now, std::vector<ValveCommit>& com
     }
   }
   journal_.alarms.give_back(alarms);
-  journal_.told.give_back(std::move(told));
+  journal_.reported.give_back(std::move(reported));
   return trouble;
 }
 

@@ -5,7 +5,7 @@
 #include "addons/live/history/alarm_table.hpp"
 #include "addons/live/history/outbox_table.hpp"
 #include "addons/live/history/source_count_table.hpp"
-#include "addons/live/history/told_table.hpp"
+#include "addons/live/history/reported_table.hpp"
 
 namespace spoolflow::live {
 namespace {
@@ -119,7 +119,7 @@ void prepare(Database& database) {
   make_alarm_tables(database);
   make_outbox_tables(database);
   make_source_count_table(database);
-  make_told_table(database);
+  make_reported_table(database);
   if (version_of(database) < store_version) bring_up_to_date(database);
   // The whole of a large one would take minutes; damage is then reported where it is met.
   constexpr std::int64_t most_pages = 50'000;

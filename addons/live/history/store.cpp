@@ -170,7 +170,7 @@ void Store::move_rows() {
 }
 
 void Store::commit_all(const RowTime& at, const std::vector<ValveCommit>& valves, std::vector<Event>& events,
-                       const std::vector<Alarm>& alarms, const ToldTexts& told) {
+                       const std::vector<Alarm>& alarms, const ReportedTexts& reported) {
   Transaction whole(*database_);
   Statements& to = *statements_;
   const RowTime& before = run_time_->newest();
@@ -204,7 +204,7 @@ void Store::commit_all(const RowTime& at, const std::vector<ValveCommit>& valves
     event.id = database_->number("SELECT last_insert_rowid()");
   }
   keep_alarms(*database_, alarms, at.run_ms);
-  keep_told(*database_, told);
+  keep_reports(*database_, reported);
   if (any) {
     const std::vector<std::byte> all = joined(to.changes);
     to.state_change.put(std::span(all)).run();
@@ -213,11 +213,11 @@ void Store::commit_all(const RowTime& at, const std::vector<ValveCommit>& valves
 }
 
 void Store::commit(const Instant& now, const std::vector<ValveCommit>& valves, std::vector<Event>& events,
-                   const std::vector<Alarm>& alarms, const ToldTexts& told) {
+                   const std::vector<Alarm>& alarms, const ReportedTexts& reported) {
   (void)open_one();
   try {
     const RowTime at = run_time_->next(*database_, now);
-    commit_all(at, valves, events, alarms, told);
+    commit_all(at, valves, events, alarms, reported);
     run_time_->kept(at, now);
     needs_states_ = false;
   } catch (const std::exception& error) {

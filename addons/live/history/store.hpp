@@ -17,11 +17,11 @@
 #include "addons/live/history/file_lock.hpp"
 #include "addons/live/history/file_watch.hpp"
 #include "addons/live/history/outbox_table.hpp"
+#include "addons/live/history/reported_table.hpp"
 #include "addons/live/history/retention.hpp"
 #include "addons/live/history/run_time.hpp"
 #include "addons/live/history/source_count_table.hpp"
 #include "addons/live/history/sqlite.hpp"
-#include "addons/live/history/told_table.hpp"
 
 namespace spoolflow::live {
 
@@ -93,13 +93,14 @@ class Store {
   /// Throws StoreError where none of this can be done now: nothing is kept meanwhile, and the next call tries again.
   [[nodiscard]] std::string look_after(std::int64_t wall_ms);
   /// After a store started again, or goes on in another file: events and alarms that are known, with their numbers, and
-  /// who was told of them; and the next commit has the states of all valves.
-  void keep_again(const std::vector<Event>& events, const std::vector<Alarm>& alarms, const ToldTexts& told = {});
+  /// who has a message of them; and the next commit has the states of all valves.
+  void keep_again(const std::vector<Event>& events, const std::vector<Alarm>& alarms,
+                  const ReportedTexts& reported = {});
 
   [[nodiscard]] std::vector<KeptState> states();
   /// One transaction. Throws StoreError, and then nothing of it is kept.
   void commit(const Instant& now, const std::vector<ValveCommit>& valves, std::vector<Event>& events,
-              const std::vector<Alarm>& alarms = {}, const ToldTexts& told = {});
+              const std::vector<Alarm>& alarms = {}, const ReportedTexts& reported = {});
   /// Of the newest row; 0 where there is none.
   [[nodiscard]] RowTime newest() const { return run_time_ ? run_time_->newest() : RowTime{}; }
   [[nodiscard]] std::vector<OutboxPosition> positions() { return outbox_positions(*database_); }
@@ -114,7 +115,7 @@ class Store {
   [[nodiscard]] std::vector<Event> events(int most);
   /// As kept_alarms().
   [[nodiscard]] std::vector<Alarm> alarms(int most_cleared) { return kept_alarms(*database_, most_cleared); }
-  [[nodiscard]] ToldTexts told() { return kept_told(*database_); }
+  [[nodiscard]] ReportedTexts reported() { return kept_reports(*database_); }
   /// Returns its number. Throws StoreError.
   std::int64_t keep_recording(const KeptRecording& recording);
   /// Deletes what is older or more than that, as delete_old(). Throws StoreError.
@@ -127,7 +128,7 @@ class Store {
   void put_state(std::int64_t valve, const KeptState& state);
   void move_rows();
   void commit_all(const RowTime& at, const std::vector<ValveCommit>& valves, std::vector<Event>& events,
-                  const std::vector<Alarm>& alarms, const ToldTexts& told);
+                  const std::vector<Alarm>& alarms, const ReportedTexts& reported);
 
   void open();
   /// Leaves file and log as they are.

@@ -44,7 +44,8 @@ void Store::keep_on_disk() {
   open_one().run("PRAGMA synchronous=FULL");
 }
 
-void Store::keep_again(const std::vector<Event>& events, const std::vector<Alarm>& alarms, const ToldTexts& told) {
+void Store::keep_again(const std::vector<Event>& events, const std::vector<Alarm>& alarms,
+                       const ReportedTexts& reported) {
   needs_states_ = true;
   Transaction whole(open_one());
   Statement add(
@@ -60,7 +61,7 @@ void Store::keep_again(const std::vector<Event>& events, const std::vector<Alarm
         .run();
   }
   keep_alarms(*database_, alarms, newest().run_ms);
-  keep_told(*database_, told);
+  keep_reports(*database_, reported);
   whole.commit();
 }
 

@@ -36,10 +36,10 @@ std::string site_name(const SiteSettings& site) {
   return name.data();
 }
 
-/// What it was told before, where the store says so; else it knows all that there is.
+/// The alarms that it was sent before, where the store has them; else it knows all that there is.
 GatheredNews gathered_of(Engine& engine, const std::string& name, monitor::Ne107 least) {
-  const std::optional<std::string> told = engine.told().of(name);
-  return told ? GatheredNews(*told, engine.alarms(), least) : GatheredNews(engine.alarms(), least);
+  const std::optional<std::string> reported = engine.reported().of(name);
+  return reported ? GatheredNews(*reported, engine.alarms(), least) : GatheredNews(engine.alarms(), least);
 }
 
 }  // namespace
@@ -70,7 +70,7 @@ struct Notifier::Receiver {
   void look() {
     output->dropped += gathered.look(engine.alarms());
     output->waiting = gathered.news().size();
-    engine.told().set(name, gathered.written());
+    engine.reported().set(name, gathered.written());
     if (gathered.news().empty()) {
       due.reset();
     } else if (!due) {
@@ -87,7 +87,7 @@ struct Notifier::Receiver {
       if (!trouble.empty()) engine.note(fmt::format("{}: messages of alarms go out again", settings.name));
       ++output->sent;
       gathered.clear();
-      engine.told().set(name, gathered.written());
+      engine.reported().set(name, gathered.written());
       output->waiting = 0;
       due.reset();
       wait_s = settings.retry_s;

@@ -11,7 +11,7 @@ namespace spoolflow::live {
 
 class Notifier {
  public:
-  /// Goes on with what the store says that each receiver was told; without it, alarms that are listed are known. The
+  /// Goes on with what the store says that each receiver has; without it, alarms that are listed are known. The
   /// engine outlives it.
   explicit Notifier(Engine& engine);
   /// What waits is tried once more, for 3 s at most; what does not go out becomes an event, and the store keeps it.

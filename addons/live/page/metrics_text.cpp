@@ -69,6 +69,25 @@ std::string output_metrics(const Engine& engine) {
   return out;
 }
 
+/// Of datagrams and messages before they are samples of a valve.
+std::string input_metrics(const Engine& engine) {
+  std::string out;
+  const UdpCounters udp = engine.udp_counters();
+  const auto single = [&](const char* name, const char* help, std::uint64_t value) {
+    out += fmt::format("# HELP {0} {1}\n# TYPE {0} counter\n{0} {2}\n", name, help, value);
+  };
+  single("spoolflow_udp_datagrams_total", "Datagrams that came in.", udp.datagrams);
+  single("spoolflow_udp_unreadable_total", "Datagrams that are none of spoolflow.", udp.unreadable);
+  single("spoolflow_udp_unknown_valve_total", "Datagrams of no valve of this site.", udp.unknown_valve);
+  single("spoolflow_udp_not_allowed_total", "Datagrams from addresses that may not send.", udp.not_allowed);
+  if (engine.messages() != nullptr) {
+    const MessageCounters messages = engine.messages()->counters();
+    single("spoolflow_mqtt_messages_total", "Messages that came from the broker.", messages.messages);
+    single("spoolflow_mqtt_unknown_valve_total", "Messages of no valve of this site.", messages.unknown_valve);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string metrics_text(const Engine& engine) {
@@ -117,19 +136,7 @@ std::string metrics_text(const Engine& engine) {
          [](const Row& row) { return row.source.counters.unreadable; });
   out += store_metrics(engine);
   out += output_metrics(engine);
-  const UdpCounters udp = engine.udp_counters();
-  const auto single = [&](const char* name, const char* help, std::uint64_t value) {
-    out += fmt::format("# HELP {0} {1}\n# TYPE {0} counter\n{0} {2}\n", name, help, value);
-  };
-  single("spoolflow_udp_datagrams_total", "Datagrams that came in.", udp.datagrams);
-  single("spoolflow_udp_unreadable_total", "Datagrams that are none of spoolflow.", udp.unreadable);
-  single("spoolflow_udp_unknown_valve_total", "Datagrams of no valve of this site.", udp.unknown_valve);
-  single("spoolflow_udp_not_allowed_total", "Datagrams from addresses that may not send.", udp.not_allowed);
-  if (engine.messages() != nullptr) {
-    const MessageCounters messages = engine.messages()->counters();
-    single("spoolflow_mqtt_messages_total", "Messages that came from the broker.", messages.messages);
-    single("spoolflow_mqtt_unknown_valve_total", "Messages of no valve of this site.", messages.unknown_valve);
-  }
+  out += input_metrics(engine);
   return out;
 }
 

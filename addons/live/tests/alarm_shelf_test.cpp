@@ -155,13 +155,13 @@ TEST_F(News, GoOnWhereTheyWereWritten) {
   ASSERT_EQ(next.news().size(), 1U);
   EXPECT_EQ(next.news()[0].kind, AlarmNews::Kind::raised);
   next.clear();
-  GatheredNews told(next.written(), alarms.all(), Ne107::maintenance_required);
-  (void)told.look(alarms.all());
-  EXPECT_THAT(told.news(), IsEmpty());
+  GatheredNews reported(next.written(), alarms.all(), Ne107::maintenance_required);
+  (void)reported.look(alarms.all());
+  EXPECT_THAT(reported.news(), IsEmpty());
   (void)look(false);
-  (void)told.look(alarms.all());  // what happened while nobody looked is news
-  ASSERT_EQ(told.news().size(), 1U);
-  EXPECT_EQ(told.news()[0].kind, AlarmNews::Kind::gone);
+  (void)reported.look(alarms.all());  // what happened while nobody looked is news
+  ASSERT_EQ(reported.news().size(), 1U);
+  EXPECT_EQ(reported.news()[0].kind, AlarmNews::Kind::gone);
   EXPECT_THAT(GatheredNews("rubbish", alarms.all(), Ne107::maintenance_required).news(), IsEmpty());
 }
 

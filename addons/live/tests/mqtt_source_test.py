@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """mqtt_source_test.py COMMAND EXAMPLES: valves whose samples come through mosquitto, sent by Paho for Python: the answer is that of
-`estimate`; millimetres for metres, unknown valves and rubbish are told; the broker goes away and comes back."""
+`estimate`; millimetres for metres, unknown valves and unreadable text are reported; the broker goes away and comes back."""
 import csv
 import json
 import os

@@ -1,51 +1,51 @@
 #pragma once
-/// What receivers of messages of alarms were told, between them and the store. For any thread.
+/// The alarms that receivers of messages have, between them and the store. For any thread.
 #include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
 
-#include "addons/live/history/told_table.hpp"
+#include "addons/live/history/reported_table.hpp"
 
 namespace spoolflow::live {
 
-class ToldAlarms {
+class ReportedAlarms {
  public:
   /// From the store.
-  void restore(ToldTexts told) {
+  void restore(ReportedTexts reported) {
     const std::lock_guard lock(mutex_);
-    told_ = std::move(told);
+    reported_ = std::move(reported);
   }
   [[nodiscard]] std::optional<std::string> of(const std::string& receiver) const {
     const std::lock_guard lock(mutex_);
-    const auto found = told_.find(receiver);
-    return found == told_.end() ? std::nullopt : std::optional(found->second);
+    const auto found = reported_.find(receiver);
+    return found == reported_.end() ? std::nullopt : std::optional(found->second);
   }
   /// Kept with the next second's commit.
   void set(const std::string& receiver, std::string alarms) {
     const std::lock_guard lock(mutex_);
-    std::string& text = told_[receiver];
+    std::string& text = reported_[receiver];
     if (text == alarms) return;
     text = std::move(alarms);
     changed_[receiver] = text;
   }
-  [[nodiscard]] ToldTexts all() const {
+  [[nodiscard]] ReportedTexts all() const {
     const std::lock_guard lock(mutex_);
-    return told_;
+    return reported_;
   }
-  [[nodiscard]] ToldTexts take_changed() {
+  [[nodiscard]] ReportedTexts take_changed() {
     const std::lock_guard lock(mutex_);
     return std::exchange(changed_, {});
   }
   /// They could not be kept.
-  void give_back(ToldTexts told) {
+  void give_back(ReportedTexts reported) {
     const std::lock_guard lock(mutex_);
-    changed_.merge(told);
+    changed_.merge(reported);
   }
 
  private:
   mutable std::mutex mutex_;
-  ToldTexts told_, changed_;
+  ReportedTexts reported_, changed_;
 };
 
 }  // namespace spoolflow::live
