@@ -4,8 +4,8 @@
 
 #include "addons/live/history/alarm_table.hpp"
 #include "addons/live/history/outbox_table.hpp"
-#include "addons/live/history/source_count_table.hpp"
 #include "addons/live/history/reported_table.hpp"
+#include "addons/live/history/source_count_table.hpp"
 
 namespace spoolflow::live {
 namespace {
