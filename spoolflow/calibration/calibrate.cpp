@@ -64,6 +64,13 @@ plausibility::Benches benches_of(const CampaignRecordings& of, const Recordings&
           .density_kg_per_m3 = campaign.fluid.density_15C_kg_per_m3.value_or(usual_density_kg_per_m3)};
 }
 
+plausibility::Finding without_force_map(const recording::Recording& dynamic) {
+  return {false, fmt::format("{}: nothing but the coil's largest voltage is taken of solenoid_dynamic, for without "
+                             "solenoid_force_map the flow bench shows the solenoid's force; add that recording, or "
+                             "leave this one out",
+                             dynamic.file.filename().string())};
+}
+
 /// Throws CalibrationError where `refused` names anything.
 void refuse(const recording::Campaign& campaign, const std::string& refused) {
   if (refused.empty()) return;
@@ -92,6 +99,7 @@ std::vector<std::string> findings_about(const ReadCampaign& recordings, const re
   keep(plausibility::channel_findings(recordings.all()));
   const std::vector<std::string> directions = refused.empty() ? recordings.directions() : std::vector<std::string>{};
   for (const std::string& direction : directions) {
+    for (const recording::Recording* unused : recordings.unused(direction)) keep({without_force_map(*unused)});
     const CampaignRecordings of = recordings.of(direction);
     const AxialForceMaps& maps = of.axial_force_maps;
     if (!maps.joined.empty()) {

@@ -83,6 +83,10 @@ AxialForceMaps ReadCampaign::axial_force_maps(const std::string& direction) cons
   return out;
 }
 
+Recordings ReadCampaign::unused(const std::string& direction) const {
+  return of(Protocol::solenoid_force_map, direction).empty() ? of(Protocol::solenoid_dynamic, direction) : Recordings{};
+}
+
 bool ReadCampaign::has_inferred_actuator(const std::string& direction) const {
   return flow_bench(direction) != nullptr && of(Protocol::solenoid_force_map, direction).empty();
 }

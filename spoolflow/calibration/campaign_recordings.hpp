@@ -50,6 +50,8 @@ class ReadCampaign {
   [[nodiscard]] const std::vector<std::string>& directions() const { return directions_; }
   /// One of directions().
   [[nodiscard]] CampaignRecordings of(const std::string& direction) const;
+  /// `solenoid_dynamic` without the force map that it belongs to: of it the coil's largest voltage alone is taken.
+  [[nodiscard]] Recordings unused(const std::string& direction) const;
   /// Operating runs of the whole valve, with the currents of both coils.
   [[nodiscard]] Recordings through_centre() const;
   [[nodiscard]] Recordings all() const;

@@ -100,6 +100,22 @@ TEST(CampaignRecordings, AForceMapTogetherWithStrokesOfAFlowBenchIsComplete) {
   EXPECT_EQ(complete_read_options(campaign).size(), 3U);
 }
 
+TEST(CampaignRecordings, MovesOfTheSolenoidAloneServeWithItsForceMapOnly) {
+  for (const bool mapped : {false, true}) {
+    std::string text = "[valve]\nname = \"W\"\nrated_flow_L_min = 60\nstroke_mm = 2.4\n";
+    for (const char* protocol : {"unpressurised_strokes", "metering", "solenoid_dynamic"}) text += entry(protocol, "");
+    if (mapped) text += entry("solenoid_force_map", "");
+    const recording::TemporaryFile file("campaign.toml", text);
+    std::ofstream(file.folder() / "all.csv")
+        << "time_s,position_mm,current_A,voltage_V,force_N,pressure_difference_bar,"
+           "flow_reference_L_min\n0,0,0,0,0,10,0\n0.01,0.1,0,0,0,10,0\n";
+    const recording::Campaign campaign = recording::read_campaign(file.path());
+    ReadCampaign read(campaign);
+    for (std::size_t k = 0; k < campaign.recordings.size(); ++k) (void)read.read_next();
+    EXPECT_EQ(read.unused("b").size(), mapped ? 0U : 1U);
+  }
+}
+
 TEST(CampaignRecordings, ListEveryMissingChannelOfEveryFileAtOnce) {
   const std::string text = refused_campaign(
       "", "time_s,position_mm,axial_force_N,else_A,else_N,pressure_upstream_bar,flow_reference_L_min", "");
