@@ -87,7 +87,7 @@ const server = new OPCUAServer({
   hostname: values.host,
   alternateHostname: [values.host],
   serverInfo: { applicationUri: "urn:spoolflow:opcua", productUri: "spoolflow-opcua" },
-  buildInfo: { productName: "spoolflow-opcua", softwareVersion: "0.1.0", manufacturerName: "spoolflow" },
+  buildInfo: { productName: "spoolflow-opcua", softwareVersion: "1.0.0", manufacturerName: "spoolflow" },
   serverCertificateManager: certificates,
   userCertificateManager: userCertificates,
   allowAnonymous: false,

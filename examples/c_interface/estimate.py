@@ -26,7 +26,7 @@ class Outputs(ctypes.Structure):
                 ] + [("status", POINTER(c_uint32))]
 
 
-library = ctypes.CDLL(os.environ.get("SPOOLFLOW_LIBRARY", "libspoolflow.so.0"))
+library = ctypes.CDLL(os.environ.get("SPOOLFLOW_LIBRARY", "libspoolflow.so.1"))
 library.spoolflow_create.argtypes = [c_char_p, c_int, POINTER(c_void_p), c_char_p, c_size_t]
 library.spoolflow_step_arrays.argtypes = [c_void_p, c_size_t, POINTER(Inputs), POINTER(Outputs)]
 library.spoolflow_destroy.argtypes = [c_void_p]

@@ -36,10 +36,10 @@
 #include <stdint.h>
 
 /* Version of this header; spoolflow_version() is that of the library which is loaded. */
-#define SPOOLFLOW_VERSION_MAJOR 0
-#define SPOOLFLOW_VERSION_MINOR 1
+#define SPOOLFLOW_VERSION_MAJOR 1
+#define SPOOLFLOW_VERSION_MINOR 0
 #define SPOOLFLOW_VERSION_PATCH 0
-#define SPOOLFLOW_VERSION "0.1.0"
+#define SPOOLFLOW_VERSION "1.0.0"
 
 #if defined(_WIN32)
 #if defined(SPOOLFLOW_BUILDS_DLL)
@@ -127,7 +127,7 @@ typedef struct spoolflow_estimate {
 /* A sensor in operation. Made by spoolflow_create and its like, ended by spoolflow_destroy. */
 typedef struct spoolflow_sensor spoolflow_sensor;
 
-/* The library's version, such as "0.1.0"; lives as long as the program. */
+/* The library's version, such as "1.0.0"; lives as long as the program. */
 SPOOLFLOW_API const char* spoolflow_version(void);
 
 /* Makes a sensor from a model file.
