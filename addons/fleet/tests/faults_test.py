@@ -101,7 +101,7 @@ class Faults(WithAFleet):
         version = fleet.postgres.ask("SELECT value FROM setting WHERE name = 'version'")[0]
         fleet.postgres.ask("UPDATE setting SET value = '99' WHERE name = 'version'")
         for command in ("worker", "fleet --status", "fleet --setup", "fleet"):
-            refused("of version 99, this program knows version 4; use a newer program", command=command)
+            refused("of version 99, this program knows version 5; use a newer program", command=command)
         fleet.postgres.ask(f"UPDATE setting SET value = '{version}' WHERE name = 'version'")
         self.assertEqual(fleet.postgres.ask("SELECT count(*) FROM worker"), ["0"])
 
