@@ -133,7 +133,8 @@ TypeSection type_section(const JsonNode& node) {
     node.at("correlation").refuse(fmt::format("has {} entries, {} would fit", out.correlation.size(), wanted));
   const JsonNode environment = node.at("environment_without_spread");
   out.environment = {environment.at("force_N").number(0, 1e5), environment.at("friction_share").number(0, 10),
-                     environment.at("flow_share").number(0, 10)};
+                     environment.at("flow_share").number(0, 10),
+                     environment.has("breakaway_share") ? environment.at("breakaway_share").number(0, 10) : 0};
   return out;
 }
 

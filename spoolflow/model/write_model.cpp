@@ -123,7 +123,8 @@ Json type_section(const TypeSection& type) {
           {"environment_without_spread",
            {{"force_N", type.environment.force_N},
             {"friction_share", type.environment.friction_share},
-            {"flow_share", type.environment.flow_share}}}};
+            {"flow_share", type.environment.flow_share},
+            {"breakaway_share", type.environment.breakaway_share}}}};
 }
 
 Json condensed(const Condensed& condensed) {

@@ -27,7 +27,7 @@ model::Model type_beside(double friction_ratio, double spread) {
   model::Model out = beside(friction_ratio);
   sensor::Environment<double>& own = out.observer->parameters.environment;
   out.type = model::TypeSection{"NG6", false, {{"spring_preload", "1", 0.03, 0, 0.03}}, {1}, {}};
-  out.type->environment = {own.force_N, own.friction_share, own.flow_share};
+  out.type->environment = {own.force_N, own.friction_share, own.flow_share, 0};
   own.friction_share = std::hypot(own.friction_share, spread);
   return out;
 }

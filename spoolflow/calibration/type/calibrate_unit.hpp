@@ -17,9 +17,9 @@ namespace spoolflow::calibration {
 inline constexpr double foreign_deviations = 4.5;
 /// ... more than that, and it is marked as at the type's edge.
 inline constexpr double marginal_deviations = 3;
-/// Sum of the squares of all directions' standard deviations that no unit of the type reaches: chi square of fifteen
+/// Sum of the squares of all directions' standard deviations that no unit of the type reaches: chi square of sixteen
 /// directions, one unit in a thousand; what is not seen adds nothing to it.
-inline constexpr double foreign_chi_square = 38;
+inline constexpr double foreign_chi_square = 39;
 /// Recordings fit no unit where their rows are off by more than this times what was expected.
 inline constexpr double largest_misfit = 4;
 /// A direction whose uncertainty stays above this share of its tolerance was not seen by the recordings.

@@ -14,7 +14,8 @@ namespace {
 
 constexpr auto unknowns = static_cast<Eigen::Index>(unit_unknowns);
 constexpr std::array<double, unit_unknowns - variations> beside_deviations{
-    meter_gain_uncertainty, ageing_uncertainty, unloaded_friction_uncertainty_N, conductance_tilt_uncertainty};
+    meter_gain_uncertainty, ageing_uncertainty, unloaded_friction_uncertainty_N,
+    friction_tilt_uncertainty_N, conductance_tilt_uncertainty};
 
 UnitUnknowns unknowns_from(const Eigen::VectorXd& x) {
   UnitUnknowns out;
@@ -22,7 +23,8 @@ UnitUnknowns unknowns_from(const Eigen::VectorXd& x) {
   out.meter_gain = x(deviating);
   out.ageing = x(deviating + 1);
   out.unloaded_friction_N = x(deviating + 2);
-  out.conductance_tilt = x(deviating + 3);
+  out.friction_tilt_N = x(deviating + 3);
+  out.conductance_tilt = x(deviating + 4);
   return out;
 }
 

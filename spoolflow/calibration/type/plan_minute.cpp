@@ -21,7 +21,8 @@ constexpr std::array<double, 4> rates_per_s{0.06, 0.08, 0.12, 0.16};
 /// So much of a flow [share] is unknown where nothing but the range of pressures is known: one standard deviation.
 constexpr double flow_of_unknown_pressure = 0.3;
 /// The deviations, the flow meter's gain, and what the maps are wrong by: see UnitUnknowns.
-constexpr Eigen::Index gain = deviating, friction_left = deviating + 1, tilt = deviating + 2, searched = deviating + 3;
+constexpr Eigen::Index gain = deviating, friction_left = deviating + 1, friction_tilt = deviating + 2, tilt = deviating + 3,
+                       searched = deviating + 4;
 
 /// What each direction of motion makes of the force rows: the spool slides one way, loop and friction hinder it.
 Eigen::MatrixXd force_rows(const EffectSlopes& slopes, double friction_ratio, int direction) {
@@ -40,6 +41,7 @@ class Planner {
     prior_.topLeftCorner(deviating, deviating) = inverse_of_covariance(known.covariance);
     prior_(gain, gain) = 1 / (meter_gain_uncertainty * meter_gain_uncertainty);
     prior_(friction_left, friction_left) = 1 / (unloaded_friction_uncertainty_N * unloaded_friction_uncertainty_N);
+    prior_(friction_tilt, friction_tilt) = 1 / (friction_tilt_uncertainty_N * friction_tilt_uncertainty_N);
     prior_(tilt, tilt) = 1 / (conductance_tilt_uncertainty * conductance_tilt_uncertainty);
     find_flow_slopes();
   }
@@ -151,6 +153,9 @@ class Planner {
     for (const int direction : {1, -1}) {
       Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(points.size()), searched);
       rows.leftCols(deviating) = force_rows(slopes, unit().friction.operation_ratio, direction);
+      for (std::size_t p = 0; p < points.size(); ++p) {
+        rows(static_cast<Eigen::Index>(p), friction_tilt) = -direction * (2 * points[p].position_m / stroke_m - 1);
+      }
       if (pressure_share < unloaded_share) rows.col(friction_left).setConstant(-direction);
       if (speed_m_per_s < fastest_sliding_m_per_s) out += rows.transpose() * rows / (force_N * force_N);
       if (!(speed_m_per_s < fastest_metered_m_per_s) || pressure_Pa == 0) continue;

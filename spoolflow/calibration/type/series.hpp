@@ -39,7 +39,7 @@ inline constexpr double capability_deviations = marginal_deviations;
 /// tolerances, which count as units, than of these.
 inline constexpr std::size_t least_for_capability = 25;
 inline constexpr std::size_t least_for_drift = 8;
-/// Of fifteen directions without drift, one series in a hundred shows a slope beyond that in any.
+/// Of sixteen directions without drift, one series in a hundred shows a slope beyond that in any.
 inline constexpr double drifting_deviations = 4;
 
 struct Series {

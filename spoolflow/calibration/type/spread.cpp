@@ -26,9 +26,13 @@ UnitSpread spread_of(const sensor::ObserverParameters<double>& unit, const Known
     conductance(p) = std::max(here.conductance, 1e-15);
   }
   const auto count = static_cast<double>(points);
+  // Of ageing() by the logarithm of its time: the most, after a rest of that time over the root of the ratio.
+  const double root = std::sqrt(std::max(1.0, unit.friction.ageing_ratio)), per_time = (root - 1) / (root + 1);
+  const auto ageing_time = static_cast<Eigen::Index>(at(Variation::ageing_time));
   return {std::sqrt(variance(slopes.force_N, Eigen::VectorXd::Ones(points), known) / count),
           std::sqrt(variance(slopes.friction_N, friction_N, known) / count),
-          std::sqrt(variance(slopes.conductance, conductance, known) / count)};
+          std::sqrt(variance(slopes.conductance, conductance, known) / count),
+          per_time * std::sqrt(known.covariance(ageing_time, ageing_time))};
 }
 
 }  // namespace spoolflow::calibration

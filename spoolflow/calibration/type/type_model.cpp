@@ -15,7 +15,7 @@ namespace {
 
 constexpr double um_per_m = 1e6;
 /// unit_parameters() is linear enough for some standard deviations of this.
-constexpr double largest_share = 0.3, largest_length_m = 5e-5;
+constexpr double largest_share = 0.3, largest_length_m = 5e-5, largest_logarithm = 1.5;
 
 std::string key_of(const VariationAbout& about) {
   return std::string(about.name) + (about.unit == "m" ? "_um" : "");
@@ -39,7 +39,9 @@ Deviations tolerances_from(const recording::CampaignTolerances& written) {
           fmt::format("{}: [tolerances] has no key {}; allowed: {}", written.place, key, all_keys()));
     }
     const bool length = found->unit == "m";
-    const double most = length ? largest_length_m * um_per_m : largest_share;
+    const double most = length                 ? largest_length_m * um_per_m
+                        : found->unit == "ln" ? largest_logarithm
+                                               : largest_share;
     if (!(value <= most)) {
       throw CalibrationError(
           fmt::format("{}: {} = {} is more than {:g}, one standard deviation between units of a type", written.place,
@@ -87,6 +89,7 @@ void set_spread(model::Model& model, const model::EnvironmentWithoutSpread& envi
   observer.environment.force_N = std::hypot(environment.force_N, spread.force_N);
   observer.environment.friction_share = std::hypot(environment.friction_share, spread.friction_share);
   observer.environment.flow_share = std::hypot(environment.flow_share, spread.flow_share);
+  observer.friction.breakaway_share = std::hypot(environment.breakaway_share, spread.breakaway_share);
 }
 
 model::Model type_model(model::Model valve, const Deviations& tolerances) {
@@ -103,7 +106,8 @@ model::Model type_model(model::Model valve, const Deviations& tolerances, const 
         "a type is of one direction of flow, and the campaign is of both; make one type of each direction's benches");
   if (valve.type) throw CalibrationError("the model is of a type already");
   const sensor::Environment<double>& own = valve.observer->parameters.environment;
-  const model::EnvironmentWithoutSpread environment{own.force_N, own.friction_share, own.flow_share};
+  const model::EnvironmentWithoutSpread environment{own.force_N, own.friction_share, own.flow_share,
+                                                   valve.observer->parameters.friction.breakaway_share};
   valve.type = type_section(valve.valve.name, false, tolerances, units, environment);
   set_spread(valve, environment, units);
   return valve;

@@ -263,6 +263,7 @@ void UnitEvidence::add_forces(const Run& run, const sensor::ObserverParameters<d
     const double aged = sample.rested_s > 0 ? sensor::ageing(unit.friction, sample.rested_s) : 1;
     const double friction_N =
         unit.friction.operation_ratio * (aged * edge.friction_N + estimate.friction_half_width_N) +
+        unknowns.friction_tilt_N * (2 * sample.position_m / type_.valve.stroke_m - 1) +
         (pressure_Pa < unloaded_Pa ? unknowns.unloaded_friction_N : 0);
     sums(sample.force_row) += estimate.magnetic_force_N - unit.spring.at(sample.position_m).value -
                               (run.pressurised ? edge.flow_force_N : 0) - sample.direction * friction_N;

@@ -27,12 +27,13 @@ struct UnitUnknowns {
   double meter_gain = 0;           ///< what the flow meter reads too much, as a share
   double ageing = 0;               ///< of the force at which the spool breaks away beside the type's, a share of ageing
   double unloaded_friction_N = 0;  ///< by what friction without pressure exceeds that of the maps
+  double friction_tilt_N = 0;      ///< by what friction and loop exceed the maps open, and fall short of them closed
   double conductance_tilt = 0;     ///< by what the conductance exceeds the maps' open, and falls short of them closed
 };
-/// One standard deviation of each of the last four.
-inline constexpr double meter_gain_uncertainty = 0.005, ageing_uncertainty = 0.5, unloaded_friction_uncertainty_N = 0.3,
-                        conductance_tilt_uncertainty = 0.01;
-inline constexpr std::size_t unit_unknowns = variations + 4;
+/// One standard deviation of each of the last five.
+inline constexpr double meter_gain_uncertainty = 0.005, ageing_uncertainty = 0.35, unloaded_friction_uncertainty_N = 0.3,
+                        friction_tilt_uncertainty_N = 0.3, conductance_tilt_uncertainty = 0.01;
+inline constexpr std::size_t unit_unknowns = variations + 5;
 /// Below this share of the highest pressure difference it counts as none.
 inline constexpr double unloaded_share = 0.02;
 

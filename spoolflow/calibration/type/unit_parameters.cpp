@@ -201,6 +201,7 @@ sensor::ObserverParameters<double> unit_parameters(const sensor::ObserverParamet
   vary_actuator(out.actuator, deviations);
   vary_spring(out.spring, deviations);
   vary_edge(out.edge, deviations);
+  out.friction.ageing_s *= std::exp(deviations[at(Variation::ageing_time)]);
   out.closed_below_m = closed_below(type.closed_below_m, deviations);
   return out;
 }

@@ -17,6 +17,7 @@ const std::array<VariationAbout, variations>& all_variations() {
       {"spool_friction", "1", 0.2, "spool friction without pressure", "fit, straightness and surface"},
       {"pressure_friction", "1", 0.2, "spool friction that pressure adds", "fit, straightness and surface"},
       {"armature_friction", "1", 0.2, "armature friction", "fit, straightness and surface"},
+      {"ageing_time", "ln", 0.8, "time in which friction grows at rest", "no data sheet: to four times either way"},
       {"position_zero", "m", 5e-6, "position reading at the closed end", "after setting"},
       {"position_gain", "1", 0.003, "gain of the position sensor", "after setting"},
   }};

@@ -21,18 +21,19 @@ enum class Variation : unsigned char {
   spool_friction,     ///< without pressure
   pressure_friction,  ///< what pressure adds to it
   armature_friction,
+  ageing_time,    ///< in which the spool's friction grows at rest
   position_zero,  ///< reading of the sensor at the closed end
   position_gain
 };
-inline constexpr std::size_t variations = 15;
+inline constexpr std::size_t variations = 16;
 
-/// One entry a direction: a share, or metres for edge_position and position_zero.
+/// One entry a direction: a share, metres for edge_position and position_zero, a natural logarithm for ageing_time.
 using Deviations = std::array<double, variations>;
 
 /// What is known of a direction before a unit is measured.
 struct VariationAbout {
   std::string_view name;  ///< key in [tolerances], and in a model's `type`
-  std::string_view unit;  ///< "1" or "m"
+  std::string_view unit;  ///< "1", "m", or "ln" of a natural logarithm
   double tolerance;       ///< one standard deviation between units
   std::string_view meaning;
   std::string_view source;  ///< of the tolerance
@@ -40,12 +41,13 @@ struct VariationAbout {
 
 [[nodiscard]] const std::array<VariationAbout, variations>& all_variations();
 
-/// How people write a deviation whose unit is "1" or "m": in percent or micrometres.
+/// How people write a deviation whose unit is "1" or "m": in percent or micrometres; a logarithm stays.
 struct WrittenUnit {
   double scale;           ///< times the deviation
-  std::string_view name;  ///< "%" or "um"
+  std::string_view name;  ///< "%", "um" or "ln"
 };
 [[nodiscard]] constexpr WrittenUnit written_unit(std::string_view unit) {
+  if (unit == "ln") return {1, "ln"};
   return unit == "m" ? WrittenUnit{1e6, "um"} : WrittenUnit{1e2, "%"};
 }
 

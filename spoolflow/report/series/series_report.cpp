@@ -21,8 +21,9 @@ using calibration::UnitParameter;
 double scale_of(const std::string& unit) {
   return calibration::written_unit(unit).scale;
 }
-const char* unit_of(const std::string& unit) {
-  return calibration::written_unit(unit).name == "um" ? "µm" : "%";
+std::string unit_of(const std::string& unit) {
+  const std::string_view name = calibration::written_unit(unit).name;
+  return name == "um" ? "µm" : std::string(name);
 }
 
 std::string names_of(const std::vector<std::string>& names) {

@@ -112,6 +112,31 @@ TEST(CalibrateUnit, WhatNoRecordingShowsStaysAtTheTypesSpreadAndIsNamed) {
   }
 }
 
+/// What the type calls a unit that hangs for a third of a second at each place, with that logarithm of its ageing time.
+UnitParameter found_ageing(double logarithm) {
+  Deviations deviations{};
+  deviations[at(Variation::ageing_time)] = logarithm;
+  const recording::TemporaryFile file("unit.toml",
+                                      "[[recording]]\nprotocol = \"unpressurised_strokes\"\nfile = \"dry.csv\"\n"
+                                      "[[recording]]\nprotocol = \"operation\"\nfile = \"hangs.csv\"\n");
+  const sensor::ObserverParameters<double> unit = unit_parameters(type().observer->parameters, deviations);
+  constexpr double hangs_s = 0.3;
+  write_strokes(file.folder() / "dry.csv", unit, {0, 0}, type().valve.stroke_m);
+  write_stick_slip(file.folder() / "hangs.csv", unit, hangs_s, type().valve.stroke_m);
+  std::ofstream(file.folder() / "type.json") << "{}";
+  const UnitCalibration found = calibrate_unit(type(), (file.folder() / "type.json").string(),
+                                               recording::read_unit_campaign(file.path(), valve_of_type(type())),
+                                               "test", [](const std::string&, double) {});
+  return found.parameters[at(Variation::ageing_time)];
+}
+
+TEST(CalibrateUnit, AHangingSpoolShowsHowFastItsFrictionGrowsAtRest) {
+  const UnitParameter fast = found_ageing(-1), usual = found_ageing(0);
+  EXPECT_TRUE(fast.seen);
+  EXPECT_NEAR(fast.value, -1, 2 * fast.uncertainty);
+  EXPECT_LT(fast.value, usual.value - 0.4);
+}
+
 TEST(CalibrateUnit, ASpoolThatOvershootsItsStrokeHasNoOtherPositionSensorForThat) {
   const recording::TemporaryFile file("unit.toml", "[[recording]]\nprotocol = \"operation\"\nfile = \"wet.csv\"\n");
   constexpr double overshoots = 1.05;
@@ -159,6 +184,20 @@ TEST(TypeModel, HoldsUnitsWithinItsTolerancesInAWiderBandOverTheSameTables) {
   const KnownDeviations known = known_of_type(made, "type.json");
   EXPECT_NEAR(std::sqrt(known.covariance(1, 1)), 0.015, 1e-12);
   EXPECT_THROW((void)type_model(made, tolerances_from({})), CalibrationError);
+}
+
+TEST(TypeModel, BreakAwaysOfAnyUnitAreAsUncertainAsTheTimeInWhichFrictionGrowsAtRest) {
+  const sensor::FrictionParameters<double> own =
+      model::read_model(SPOOLFLOW_EXAMPLE_MODEL).observer->parameters.friction;
+  sensor::FrictionParameters<double> slower = own;
+  constexpr double step = 1e-3;
+  slower.ageing_s *= std::exp(step);
+  double most = 0;
+  for (double rest_s = 0.01; rest_s < 100; rest_s *= 1.1)
+    most = std::max(most, std::log(sensor::ageing(own, rest_s) / sensor::ageing(slower, rest_s)) / step);
+  const double tolerance = all_variations()[at(Variation::ageing_time)].tolerance;
+  EXPECT_NEAR(type().observer->parameters.friction.breakaway_share,
+              std::hypot(own.breakaway_share, most * tolerance), 1e-3);
 }
 
 TEST(TypeModel, TolerancesAreReadInTheirUnitsAndUnknownOnesRefusedByLine) {

@@ -1,5 +1,7 @@
 #include "spoolflow/calibration/type/unit_parameters.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "spoolflow/model/model.hpp"
@@ -98,6 +100,13 @@ TEST(UnitParameters, AWiderEdgePassesMoreAndItsFlowForceGrowsWithTheFlow) {
   EXPECT_NEAR(after.conductance, 1.02 * before.conductance, 1e-12);
   EXPECT_NEAR(after.flow_force_N, 1.02 * before.flow_force_N, 1e-9);
   EXPECT_DOUBLE_EQ(after.friction_N, before.friction_N);
+}
+
+TEST(UnitParameters, ASpoolThatStrengthensTwiceAsFastHoldsAfterHalfTheRest) {
+  const sensor::ObserverParameters<double> unit =
+      unit_parameters(observer(), only(Variation::ageing_time, -std::log(2.0)));
+  for (const double rest_s : {0.1, 1.0, 10.0})
+    EXPECT_NEAR(sensor::ageing(unit.friction, 0.5 * rest_s), sensor::ageing(observer().friction, rest_s), 1e-12);
 }
 
 }  // namespace

@@ -66,4 +66,30 @@ inline void write_strokes(const std::filesystem::path& file, const sensor::Obser
   }
 }
 
+/// A spool that hangs without pressure from one place to the next, 0.1 mm on, opening: it rests `rest_s` until the coil
+/// breaks it away. CSV.
+inline void write_stick_slip(const std::filesystem::path& file, const sensor::ObserverParameters<double>& unit,
+                             double rest_s, double full_stroke_m) {
+  std::ofstream out(file);
+  out.precision(9);
+  out << "time_s,position_mm,current_A,oil_temperature_C,pressure_difference_bar\n";
+  sensor::ActuatorState<double> actuator{};
+  constexpr double step_m = 1e-4, slip_s = 0.04, begin_s = 0.5;
+  const double zero_m = unit.spring.curve.axis.first, ratio = unit.friction.operation_ratio;
+  for (double time_s = 0, share = 0; share < 0.95; time_s += virtual_step_s) {
+    const double moving_s = std::max(0.0, time_s - begin_s), places = std::floor(moving_s / (rest_s + slip_s));
+    const double phase_s = moving_s - places * (rest_s + slip_s), held = std::min(1.0, phase_s / rest_s);
+    const double position_m = zero_m + (places + std::max(0.0, (phase_s - rest_s) / slip_s)) * step_m;
+    share = position_m / full_stroke_m;
+    const double bare_N = unit.edge.at(323.15, 0, position_m).friction_N;
+    const double spool_N = phase_s < rest_s ? held * sensor::ageing(unit.friction, rest_s) * bare_N : bare_N;
+    const double wanted_N = unit.spring.at(position_m).value + ratio * spool_N;
+    const double current_A =
+        time_s < begin_s ? 0 : balancing_current_A(unit, actuator, position_m, wanted_N, ratio * held);
+    sensor::step(unit.actuator, actuator, sensor::Sample<double>{virtual_step_s, current_A, {}, position_m, {}},
+                 time_s == 0);
+    out << time_s << ',' << 1e3 * position_m << ',' << current_A << ",50,0\n";
+  }
+}
+
 }  // namespace spoolflow::calibration
