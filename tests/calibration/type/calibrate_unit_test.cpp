@@ -196,8 +196,8 @@ TEST(TypeModel, BreakAwaysOfAnyUnitAreAsUncertainAsTheTimeInWhichFrictionGrowsAt
   for (double rest_s = 0.01; rest_s < 100; rest_s *= 1.1)
     most = std::max(most, std::log(sensor::ageing(own, rest_s) / sensor::ageing(slower, rest_s)) / step);
   const double tolerance = all_variations()[at(Variation::ageing_time)].tolerance;
-  EXPECT_NEAR(type().observer->parameters.friction.breakaway_share,
-              std::hypot(own.breakaway_share, most * tolerance), 1e-3);
+  EXPECT_NEAR(type().observer->parameters.friction.breakaway_share, std::hypot(own.breakaway_share, most * tolerance),
+              1e-3);
 }
 
 TEST(TypeModel, TolerancesAreReadInTheirUnitsAndUnknownOnesRefusedByLine) {
