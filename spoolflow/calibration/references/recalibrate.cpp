@@ -146,8 +146,8 @@ class Update {
     const Change edge = edge_change(evidence_, from);
     if (agreement.deviation == 0) return;
     require_no_less(evidence_, edge);
-    const std::string oil = fmt::format("{:+.1f} % of oil beside the sensor's by {}", percent * agreement.log_ratio,
-                                        names_of(evidence_));
+    const std::string oil =
+        fmt::format("{:+.1f} % of oil beside the sensor's by {}", percent * agreement.log_ratio, names_of(evidence_));
     const double share = std::exp(edge.value) - 1;
     if (!edge.taken) {
       say(stays("edge width", edge, fmt::format("{:+.1f} %", percent * share)) + "; " + oil);
