@@ -72,12 +72,12 @@ make_all() { # OUT PLACE: all parts of a clean clone that stands at PLACE, in th
 }
 
 bareroot=
-if [ "$(id -u)" = 0 ] && command -v debootstrap >/dev/null; then
+if [ "$(echo "$built" | tr -d ' ')" ] && [ "$(id -u)" = 0 ] && command -v debootstrap >/dev/null; then
   bareroot=$work/root
   bare "$bareroot"
   one=/srv/one two=/srv/another/place/two
 else
-  echo "ci/release.sh: not root, or no debootstrap: with this machine's packages" >&2
+  [ -z "$(echo "$built" | tr -d ' ')" ] || echo "ci/release.sh: not root, or no debootstrap: with this machine's packages" >&2
   one=$work/one two=$work/another/place/two
 fi
 make_all "$out" "$one"

@@ -15,6 +15,7 @@ out=$(mkdir -p "$1" && readlink -f "$1")
 shift
 : "${SOURCE_DATE_EPOCH:?must be set}"
 export LC_ALL=C.UTF-8 TZ=UTC
+umask 022
 asked() { case " $parts " in *" $1 "*) ;; *) return 1 ;; esac; }
 parts="$*"
 for part in "$@"; do

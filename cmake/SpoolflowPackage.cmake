@@ -1,6 +1,7 @@
 # What `cmake --install` puts where, and the Debian packages that `cpack` makes of it: the tool (component tool), the shared
 # library for programs that run with it (runtime), what other programs build against (development), the add-ons' programs (live, fleet).
 include(CMakePackageConfigHelpers)
+set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE) # whatever the umask
 
 # Manual page and completion are made from the built command's own help; where it cannot run here, from that of this machine.
 set(page_command $<TARGET_FILE:spoolflow>)
