@@ -14,8 +14,8 @@ namespace {
 
 constexpr auto unknowns = static_cast<Eigen::Index>(unit_unknowns);
 constexpr std::array<double, unit_unknowns - variations> beside_deviations{
-    meter_gain_uncertainty, ageing_uncertainty, unloaded_friction_uncertainty_N,
-    friction_tilt_uncertainty_N, conductance_tilt_uncertainty};
+    meter_gain_uncertainty, ageing_uncertainty, unloaded_friction_uncertainty_N, friction_tilt_uncertainty_N,
+    conductance_tilt_uncertainty};
 
 UnitUnknowns unknowns_from(const Eigen::VectorXd& x) {
   UnitUnknowns out;

@@ -21,8 +21,8 @@ constexpr std::array<double, 4> rates_per_s{0.06, 0.08, 0.12, 0.16};
 /// So much of a flow [share] is unknown where nothing but the range of pressures is known: one standard deviation.
 constexpr double flow_of_unknown_pressure = 0.3;
 /// The deviations, the flow meter's gain, and what the maps are wrong by: see UnitUnknowns.
-constexpr Eigen::Index gain = deviating, friction_left = deviating + 1, friction_tilt = deviating + 2, tilt = deviating + 3,
-                       searched = deviating + 4;
+constexpr Eigen::Index gain = deviating, friction_left = deviating + 1, friction_tilt = deviating + 2,
+                       tilt = deviating + 3, searched = deviating + 4;
 
 /// What each direction of motion makes of the force rows: the spool slides one way, loop and friction hinder it.
 Eigen::MatrixXd force_rows(const EffectSlopes& slopes, double friction_ratio, int direction) {

@@ -39,9 +39,7 @@ Deviations tolerances_from(const recording::CampaignTolerances& written) {
           fmt::format("{}: [tolerances] has no key {}; allowed: {}", written.place, key, all_keys()));
     }
     const bool length = found->unit == "m";
-    const double most = length                 ? largest_length_m * um_per_m
-                        : found->unit == "ln" ? largest_logarithm
-                                               : largest_share;
+    const double most = length ? largest_length_m * um_per_m : found->unit == "ln" ? largest_logarithm : largest_share;
     if (!(value <= most)) {
       throw CalibrationError(
           fmt::format("{}: {} = {} is more than {:g}, one standard deviation between units of a type", written.place,
@@ -107,7 +105,7 @@ model::Model type_model(model::Model valve, const Deviations& tolerances, const 
   if (valve.type) throw CalibrationError("the model is of a type already");
   const sensor::Environment<double>& own = valve.observer->parameters.environment;
   const model::EnvironmentWithoutSpread environment{own.force_N, own.friction_share, own.flow_share,
-                                                   valve.observer->parameters.friction.breakaway_share};
+                                                    valve.observer->parameters.friction.breakaway_share};
   valve.type = type_section(valve.valve.name, false, tolerances, units, environment);
   set_spread(valve, environment, units);
   return valve;

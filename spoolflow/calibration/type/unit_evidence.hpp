@@ -31,8 +31,9 @@ struct UnitUnknowns {
   double conductance_tilt = 0;     ///< by what the conductance exceeds the maps' open, and falls short of them closed
 };
 /// One standard deviation of each of the last five.
-inline constexpr double meter_gain_uncertainty = 0.005, ageing_uncertainty = 0.35, unloaded_friction_uncertainty_N = 0.3,
-                        friction_tilt_uncertainty_N = 0.3, conductance_tilt_uncertainty = 0.01;
+inline constexpr double meter_gain_uncertainty = 0.005, ageing_uncertainty = 0.35,
+                        unloaded_friction_uncertainty_N = 0.3, friction_tilt_uncertainty_N = 0.3,
+                        conductance_tilt_uncertainty = 0.01;
 inline constexpr std::size_t unit_unknowns = variations + 5;
 /// Below this share of the highest pressure difference it counts as none.
 inline constexpr double unloaded_share = 0.02;
