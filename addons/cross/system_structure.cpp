@@ -33,10 +33,14 @@ bool connects(const Variable& variable) {
   return variable.causality == Causality::input || variable.causality == Causality::output;
 }
 
-std::string component(const char* name, const std::vector<Variable>& variables) {
+/// Of its inputs those alone that are connected: what stands here and gets no value is zero to some tools, in the place
+/// of the FMU's own start value.
+std::string component(const char* name, const std::vector<Variable>& variables, const std::string& connections) {
   std::string connectors;
   for (const Variable& variable : variables) {
-    if (connects(variable)) connectors += "          " + connector(variable, variable.name);
+    const std::string end = fmt::format(" endElement=\"{}\" endConnector=\"{}\"", name, variable.name);
+    const bool driven = variable.causality != Causality::input || connections.find(end) != std::string::npos;
+    if (connects(variable) && driven) connectors += "          " + connector(variable, variable.name);
   }
   return fmt::format(
       "      <ssd:Component name=\"{0}\" type=\"application/x-fmu-sharedlibrary\" source=\"resources/{0}.fmu\">\n"
@@ -119,7 +123,8 @@ std::string system_structure(const FmuContent& sensor, const FmuContent& valve) 
 </ssd:SystemStructureDescription>
 )",
       xml_text(sensor.model_name), xml_text(valve.model_name), sensor.tool_version, sensor.generation_time,
-      wires.connectors, component("valve", valve.variables), component("sensor", sensor.variables), wires.connections,
+      wires.connectors, component("valve", valve.variables, wires.connections),
+      component("sensor", sensor.variables, wires.connections), wires.connections,
       units_of(sensor.variables, valve.variables), fmu::number_text(sensor.stop_s));
 }
 

@@ -2,8 +2,8 @@
 """system_structure.py SPOOLFLOW MODEL.json: `export ssp`, read as a simulation tool reads it, for FMI 2.0 and 3.0.
 
 Facts of SSP 1.0's schema (elements, their order, required attributes, kinds and types) hold; each connector is a variable of its
-FMU with the same causality, type and unit; each connection joins an output to one input with the same unit; the sensor's
-inputs are all driven. Then both FMUs run as connected, and the sensor answers as much as the valve lets through.
+FMU with the same causality, type and unit; each connection joins an output to one input with the same unit; every input that
+is listed is driven, and the sensor's are all. Then both FMUs run as connected, and the sensor answers as much as the valve lets through.
 Standard library only.
 """
 import pathlib
@@ -119,13 +119,19 @@ def check(package, folder):
         with zipfile.ZipFile(folder / component.get("source")) as archive:
             archive.extractall(folders[name])
         inside[name] = connectors(component)
-        assert inside[name] == variables(folders[name]), f"the connectors of {name} are not its FMU's inputs and outputs"
+        own = variables(folders[name])
+        assert inside[name].items() <= own.items(), f"connectors of {name} are not its FMU's"
+        left_out = {each: own[each][0] for each in own.keys() - inside[name].keys()}
+        assert set(left_out.values()) <= {"input"}, f"{name} lacks outputs: {left_out}"
     units = [unit.get("name") for unit in root.find(SSD + "Units")]
     used = {unit for each in (connectors(system), *inside.values()) for _, _, unit in each.values() if unit}
     assert sorted(units) == sorted(used), (units, used)
     pairs = connected(system, inside)
-    driven = {sink for _, (element, sink) in pairs if element == "sensor"}
-    assert driven == {name for name, (kind, *_) in inside["sensor"].items() if kind == "input"}, driven
+    for name in inside:  # a tool may set an input that nothing drives to zero
+        driven = {sink for _, (element, sink) in pairs if element == name}
+        assert driven == {each for each, (kind, *_) in inside[name].items() if kind == "input"}, (name, driven)
+    whole = {name for name, (kind, *_) in variables(folders["sensor"]).items() if kind == "input"}
+    assert whole == {each for each, (kind, *_) in inside["sensor"].items() if kind == "input"}, whole
     return pairs, run(folders, pairs)
 
 
