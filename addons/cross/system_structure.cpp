@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -33,21 +34,6 @@ bool connects(const Variable& variable) {
   return variable.causality == Causality::input || variable.causality == Causality::output;
 }
 
-/// Of its inputs those alone that are connected: what stands here and gets no value is zero to some tools, in the place
-/// of the FMU's own start value.
-std::string component(const char* name, const std::vector<Variable>& variables, const std::string& connections) {
-  std::string connectors;
-  for (const Variable& variable : variables) {
-    const std::string end = fmt::format(" endElement=\"{}\" endConnector=\"{}\"", name, variable.name);
-    const bool driven = variable.causality != Causality::input || connections.find(end) != std::string::npos;
-    if (connects(variable) && driven) connectors += "          " + connector(variable, variable.name);
-  }
-  return fmt::format(
-      "      <ssd:Component name=\"{0}\" type=\"application/x-fmu-sharedlibrary\" source=\"resources/{0}.fmu\">\n"
-      "        <ssd:Connectors>\n{1}        </ssd:Connectors>\n      </ssd:Component>\n",
-      name, connectors);
-}
-
 /// A connection's ends; without an element: of the system itself.
 struct End {
   const char* element;
@@ -64,29 +50,48 @@ std::string connection(const End& start, const End& end) {
 struct Wiring {
   std::string connectors;  ///< of the system
   std::string connections;
+  std::set<std::pair<std::string, std::string>> driven{};  ///< elements' inputs at which connections end
+  void connect(const End& start, const End& end) {
+    connections += connection(start, end);
+    driven.emplace(end.element, end.connector);
+  }
 };
+
+/// Of its inputs those alone that are connected: what stands here and gets no value is zero to some tools, in the place
+/// of the FMU's own start value.
+std::string component(const char* name, const std::vector<Variable>& variables, const Wiring& wires) {
+  std::string connectors;
+  for (const Variable& variable : variables) {
+    const bool driven = variable.causality != Causality::input || wires.driven.count({name, variable.name}) > 0;
+    if (connects(variable) && driven) connectors += "          " + connector(variable, variable.name);
+  }
+  return fmt::format(
+      "      <ssd:Component name=\"{0}\" type=\"application/x-fmu-sharedlibrary\" source=\"resources/{0}.fmu\">\n"
+      "        <ssd:Connectors>\n{1}        </ssd:Connectors>\n      </ssd:Component>\n",
+      name, connectors);
+}
 
 Wiring wiring(const std::vector<Variable>& sensor, const std::vector<Variable>& valve) {
   Wiring out;
   for (const Variable& set : valve) {
     if (set.name != "position_set" && set.name != "pressure_difference_set") continue;
     out.connectors += "      " + connector(set, set.name);
-    out.connections += connection({"", set.name}, {"valve", set.name});
+    out.connect({"", set.name}, {"valve", set.name});
   }
   for (const Variable& own : sensor) {
     const bool measured = std::any_of(valve.begin(), valve.end(), [&](const Variable& other) {
       return own.causality == Causality::input && other.causality == Causality::output && other.name == own.name &&
              other.unit == own.unit;
     });
-    if (measured) out.connections += connection({"valve", own.name}, {"sensor", own.name});
+    if (measured) out.connect({"valve", own.name}, {"sensor", own.name});
     if (own.causality != Causality::output) continue;
     out.connectors += "      " + connector(own, own.name);
-    out.connections += connection({"sensor", own.name}, {"", own.name});
+    out.connect({"sensor", own.name}, {"", own.name});
   }
   for (const Variable& truth : valve) {
     if (truth.name != "flow" && truth.name != "pressure_difference") continue;
     out.connectors += "      " + connector(truth, "true_" + truth.name);
-    out.connections += connection({"valve", truth.name}, {"", "true_" + truth.name});
+    out.connect({"valve", truth.name}, {"", "true_" + truth.name});
   }
   return out;
 }
@@ -123,9 +128,8 @@ std::string system_structure(const FmuContent& sensor, const FmuContent& valve) 
 </ssd:SystemStructureDescription>
 )",
       xml_text(sensor.model_name), xml_text(valve.model_name), sensor.tool_version, sensor.generation_time,
-      wires.connectors, component("valve", valve.variables, wires.connections),
-      component("sensor", sensor.variables, wires.connections), wires.connections,
-      units_of(sensor.variables, valve.variables), fmu::number_text(sensor.stop_s));
+      wires.connectors, component("valve", valve.variables, wires), component("sensor", sensor.variables, wires),
+      wires.connections, units_of(sensor.variables, valve.variables), fmu::number_text(sensor.stop_s));
 }
 
 }  // namespace

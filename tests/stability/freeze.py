@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""freeze.py SPOOLFLOW SOURCE MADE: writes tests/stability/release anew, once a major version: NAME.json and whole_run.csv, ramp.csv of
+"""freeze.py SPOOLFLOW SOURCE MADE: writes tests/stability/release again, once a major version: NAME.json and whole_run.csv, ramp.csv of
 MADE become small models and runs; estimates, page and names are of SPOOLFLOW. With `--estimates` or `--names` in the place of
 MADE only these: after a change that betters estimates (the changelog says so), or that adds names."""
 import csv

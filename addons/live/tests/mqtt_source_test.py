@@ -5,7 +5,6 @@ import csv
 import json
 import os
 import shutil
-import socket
 import subprocess
 import sys
 import tempfile
@@ -14,37 +13,12 @@ import time
 import paho.mqtt.client as mqtt
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from broker import Broker  # noqa: E402
+from ports import free_ports  # noqa: E402
 from served import Live  # noqa: E402
 
 command, examples = (os.path.abspath(one) for one in sys.argv[1:3])
 RUN = 'protocol = "ramps"\nvalve = "size_6"\nseed = 5\n[run]\npressure_differences_bar = [50]\nrate_percent_per_s = 40\n'
-
-
-def free_port():
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        return one.getsockname()[1]
-
-
-class Broker:
-    def __init__(self, folder):
-        self.folder, self.port = folder, free_port()
-        with open(os.path.join(folder, "broker.conf"), "w", encoding="utf-8") as file:
-            file.write(f"listener {self.port} 127.0.0.1\nallow_anonymous true\n")
-        self.start()
-
-    def start(self):
-        self.process = subprocess.Popen(["/usr/sbin/mosquitto", "-c", os.path.join(self.folder, "broker.conf")], stderr=subprocess.DEVNULL)
-        while True:
-            try:
-                socket.create_connection(("127.0.0.1", self.port), 1).close()
-                return
-            except OSError:
-                time.sleep(0.05)
-
-    def kill(self):
-        self.process.kill()
-        self.process.wait()
 
 
 def sender(port):
@@ -79,7 +53,10 @@ try:
     names = ["time_s", "position_mm", "current_A", "voltage_V", "oil_temperature_C"]
     columns = {name: [float(row[name]) for row in rows] for name in names}
     count = len(rows)
-    broker = Broker(folder)
+    port = free_ports(1)[0]
+    with open(os.path.join(folder, "broker.conf"), "w", encoding="utf-8") as file:
+        file.write(f"listener {port} 127.0.0.1\nallow_anonymous true\n")
+    broker = Broker(folder, port)
     with open(os.path.join(folder, "site.toml"), "w", encoding="utf-8") as file:
         file.write('[page]\nlisten = "127.0.0.1:0"\n[sources]\nstalled_after_s = 600\n'
                    f'[sources.mqtt]\nbroker = "tcp://127.0.0.1:{broker.port}"\ntopic = "hall/+/samples"\n'

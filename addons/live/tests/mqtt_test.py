@@ -14,6 +14,7 @@ import time
 import paho.mqtt.client as mqtt
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from broker import Broker  # noqa: E402
 from ports import free_ports  # noqa: E402
 from served import Live, certificate  # noqa: E402
 
@@ -45,26 +46,6 @@ class Decoder:
 
     def decode(self, payload):
         return json.loads(self.ask({"decode": payload.hex()}))
-
-
-class Broker:
-    def __init__(self, folder, port):
-        self.folder, self.port, self.process = folder, port, None
-        self.start()
-
-    def start(self):
-        self.process = subprocess.Popen(["/usr/sbin/mosquitto", "-c", os.path.join(self.folder, "broker.conf")],
-                                        stderr=subprocess.DEVNULL)
-        while True:
-            try:
-                socket.create_connection(("127.0.0.1", self.port), 1).close()
-                return
-            except OSError:
-                time.sleep(0.05)
-
-    def kill(self):
-        self.process.kill()
-        self.process.wait()
 
 
 class Line:

@@ -8,7 +8,7 @@ import warnings
 from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Union
 
 from . import _native, apart, settings
-from .errors import FileMissing, naming_missing
+from .errors import FileMissing, calling, naming_missing
 from .files import PathLike, write_whole
 from .models import Model
 from .runs import as_recording, is_path, several_of
@@ -50,13 +50,8 @@ def _as_file(campaign: Campaign) -> Iterator[str]:
         names[file] = "campaign"
         with open(file, "w", encoding="utf-8") as out:
             out.write(settings.text_of({**campaign, "recording": listed}))
-        try:
+        with calling(names):
             yield file
-        except _native.Error as failure:
-            said = str(failure)
-            for path, called in names.items():
-                said = said.replace(path, called)
-            raise (type(failure)(said) if not isinstance(failure, FileMissing) else failure) from None
 
 
 @contextlib.contextmanager

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import contextlib
 import os
-from typing import Any, Iterator
+from typing import Any, Iterator, Mapping
 
 from . import _native
 
@@ -34,3 +34,17 @@ def naming_missing(*paths: Any) -> Iterator[None]:
             if isinstance(path, (str, bytes, os.PathLike)) and not os.path.exists(path):
                 raise FileMissing(str(failure), os.fsdecode(path)) from None
         raise
+
+
+@contextlib.contextmanager
+def calling(names: Mapping[str, str]) -> Iterator[None]:
+    """What is refused inside calls these paths, of files that the caller never saw, by their names. A file that is missing is the caller's."""
+    try:
+        yield
+    except FileMissing:
+        raise
+    except _native.Error as failure:
+        said = str(failure)
+        for path, called in names.items():
+            said = said.replace(path, called)
+        raise type(failure)(said) from None

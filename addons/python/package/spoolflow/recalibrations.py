@@ -11,7 +11,7 @@ import numpy as np
 from . import _native, apart, settings
 from .channels import Channels
 from .columns import array_of
-from .errors import naming_missing
+from .errors import calling, naming_missing
 from .files import PathLike
 from .models import Model
 from .runs import as_files, columns_of, is_path, is_run, several_of
@@ -82,13 +82,8 @@ def _as_file(references: References, runs: Sequence[Any], paths: Sequence[str]) 
         with open(file, "w", encoding="utf-8") as out:
             out.write(settings.text_of({"reference": tables}))
         names[file] = "references"
-        try:
+        with calling(names):
             yield file
-        except _native.Error as failure:
-            said = str(failure)
-            for path, called in names.items():
-                said = said.replace(path, called)
-            raise _native.Error(said) from None
 
 
 def recalibrate(model: AnyModel, recordings: Runs, references: References, *, channels: Optional[Channels] = None) -> Model:
