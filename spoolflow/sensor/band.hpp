@@ -41,6 +41,7 @@ struct OperatingPoint {
   T pressure_difference_Pa;  ///< estimated
   T position_m;
   T current_A;
+  T breakaway_Pa;  ///< what break-away forces may have the pressure difference off by
 };
 
 /// What the environment leaves open of the force that the pressure difference is estimated from [N], one standard
@@ -63,8 +64,9 @@ SPOOLFLOW_NOINLINE constexpr T environment_N(const ObserverParameters<T>& valve,
   const T ripple_N = balance.edge.flow_force_per_pressure_N_Pa * environment.ripple_Pa;
   const T freed_N = smaller(ripple_N, balance.bounds.sliding_N);
   const T friction_N = environment.friction_share * (balance.spool_friction_N + balance.armature_friction_N);
+  const T breakaway_N = balance.edge.flow_force_per_pressure_N_Pa * at.breakaway_Pa;
   const T all_N = sqrt(squared(environment.force_N) + squared(current_N) + squared(moved_N) + squared(warmer_N) +
-                       squared(ripple_N) + squared(freed_N) + squared(friction_N));
+                       squared(ripple_N) + squared(freed_N) + squared(friction_N) + squared(breakaway_N));
   return smaller(all_N, T(most_environment_N));
 }
 

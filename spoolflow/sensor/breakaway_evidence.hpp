@@ -19,12 +19,18 @@ SPOOLFLOW_INLINE constexpr bool breaks_away(const ForceBalance<T>& balance, T ti
          balance.resting.rested_s > T(shortest_rest_s) + T(0.5) * time_step_s;
 }
 
+/// What the spool and its armature hold after that rest [N].
+template <class T>
+SPOOLFLOW_INLINE constexpr T breakaway_limit_N(const FrictionParameters<T>& friction, const ForceBalance<T>& balance) {
+  return ageing(friction, balance.resting.rested_s) * balance.spool_friction_N + balance.armature_friction_N;
+}
+
 template <class T>
 SPOOLFLOW_INLINE constexpr ForceInnovation<T> breakaway_innovation(const FrictionParameters<T>& friction,
                                                                    const ForceBalance<T>& balance,
                                                                    T friction_slope_N_per_Pa) {
   const T aged = ageing(friction, balance.resting.rested_s);
-  const T limit_N = aged * balance.spool_friction_N + balance.armature_friction_N;
+  const T limit_N = breakaway_limit_N(friction, balance);
   const T expected_N = balance.direction * larger(limit_N - balance.half_swing_N, T(0));
   const T loosened_N = balance.dithered ? T(loosened_ageing_share) * (aged - T(1)) * balance.spool_friction_N : T(0);
   return {balance.resting.breakaway_N - expected_N,
@@ -34,12 +40,14 @@ SPOOLFLOW_INLINE constexpr ForceInnovation<T> breakaway_innovation(const Frictio
           sqrt(squared(balance.noise_N) + squared(loosened_N) + squared(friction.breakaway_share * limit_N))};
 }
 
-/// Update of the pressure difference alone, since stiction says little of sliding friction.
+/// Update of the pressure difference alone, since stiction says little of sliding friction. `common_N` is one standard
+/// deviation of what all break-away forces may be off by alike: no number of them averages it away.
 template <class T>
 constexpr void update_breakaway(const PressureParameters<T>& pressure, PressureState<T>& state,
-                                const ForceInnovation<T>& innovation, T highest_Pa) {
-  correct_pressure(pressure, state, weigh(state, innovation, squared(innovation.noise_N), T(0), highest_Pa),
-                   highest_Pa);
+                                const ForceInnovation<T>& innovation, T common_N, T highest_Pa) {
+  const KalmanUpdate<T> update = weigh(state, innovation, squared(innovation.noise_N), T(0), highest_Pa);
+  correct_pressure(pressure, state, update, highest_Pa);
+  state.breakaway_Pa += update.gain_Pa_per_N * common_N;
 }
 
 }  // namespace spoolflow::sensor

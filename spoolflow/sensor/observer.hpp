@@ -125,8 +125,9 @@ SPOOLFLOW_INLINE constexpr void follow_half_widths(const ObserverParameters<T>& 
                                                    T current_A) {
   PressureState<T>& pressure = state.pressure;
   if (!is_bench(valve.environment))
-    state.force_errors.environment_N = environment_N(
-        valve, balance, {state.oil.temperature_K, pressure.pressure_difference_Pa, position.position_m, current_A});
+    state.force_errors.environment_N = environment_N(valve, balance,
+                                                     {state.oil.temperature_K, pressure.pressure_difference_Pa,
+                                                      position.position_m, current_A, pressure.breakaway_Pa});
   pressure.half_widths = pressure_half_widths(
       valve.band, pressure, balance, state.friction.rest_s, position.velocity_m_per_s,
       displaced_ratio(valve.pressure, pressure, valve.friction.operation_ratio), state.force_errors.environment_N);

@@ -64,6 +64,7 @@ struct PressureState {
   T observed_Pa{};                ///< when last observed; < 0 before
   T drift_variance_Pa2{};         ///< of the resting drift since
   T unobserved_variance_Pa2{};    ///< what of it no force has shown yet
+  T breakaway_Pa{};               ///< what all break-away forces together may have it off by, one standard deviation
   T constrained_correction_Pa{};  ///< at rest, by forces that friction cannot explain; one way, since last observed
   T innovation_squared{};         ///< normalised, averaged over the last seconds of sliding
   T band_factor{};                ///< how much wider than its parts say the band must be
@@ -106,6 +107,7 @@ constexpr void begin(const PressureParameters<T>& pressure, PressureState<T>& st
   state.observed_Pa = T(-1);
   state.drift_variance_Pa2 = T(0);
   state.unobserved_variance_Pa2 = state.variance_Pa2 / squared(unobserved_factor * pressure.first_process_noise);
+  state.breakaway_Pa = T(0);
   state.constrained_correction_Pa = T(0);
   state.friction_ratio = calibrated_ratio;
   state.ratio_variance = squared(pressure.ratio_deviation);
@@ -189,6 +191,7 @@ constexpr void correct_pressure(const PressureParameters<T>& pressure, PressureS
                                 const KalmanUpdate<T>& update, T highest_Pa) {
   const T corrected_Pa = state.pressure_difference_Pa + update.gain_Pa_per_N * update.innovation_N;
   state.pressure_difference_Pa = limited(corrected_Pa, T(0), highest_Pa);
+  state.breakaway_Pa *= update.remaining_share;
   state.constrained_correction_Pa = T(0);
   state.variance_Pa2 -= update.gain_Pa_per_N * update.covariance_N_Pa;
   state.covariance_Pa -= update.gain_Pa_per_N * update.ratio_covariance_N;

@@ -51,7 +51,8 @@ SPOOLFLOW_INLINE constexpr T update(const ObserverParameters<T>& valve, Pressure
     if (!timing.process_noise) return to_friction_N;
     follow_process_noise(valve.pressure, pressure, slope, balance.noise_N);
   } else if (breaks_away(balance, timing.time_step_s)) {
-    update_breakaway(valve.pressure, pressure, breakaway_innovation(valve.friction, balance, friction_slope),
+    const T common_N = balance.direction * valve.friction.breakaway_share * breakaway_limit_N(valve.friction, balance);
+    update_breakaway(valve.pressure, pressure, breakaway_innovation(valve.friction, balance, friction_slope), common_N,
                      highest_Pa);
   } else if (const T beyond_N = beyond_bounds_N(balance); !is_zero(beyond_N)) {
     // Friction that holds more than calibrated looks alike: alone it leads to no pressure difference beyond that.

@@ -141,11 +141,25 @@ TEST(PressureDifference, LearnsFromABreakawayButTheFrictionRatioDoesNot) {
   PressureState<double> state = begin(60e5);
   slide(state, 60e5, 1, 1, 1, 1e-3);
   const PressureState<double> before = state;
-  update_breakaway(supply, state, {2.0, slope_N_per_Pa, friction_N, 0.7}, highest_Pa);
+  update_breakaway(supply, state, {2.0, slope_N_per_Pa, friction_N, 0.7}, 0.0, highest_Pa);
   EXPECT_GT(state.pressure_difference_Pa, before.pressure_difference_Pa);
   EXPECT_LT(state.variance_Pa2, before.variance_Pa2);
   EXPECT_EQ(state.friction_ratio, before.friction_ratio);
   EXPECT_EQ(state.ratio_variance, before.ratio_variance);
+}
+
+TEST(PressureDifference, NoNumberOfBreakawaysAveragesAwayWhatAllAreOffByAndSlidingTakesItAway) {
+  PressureState<double> state = begin(60e5);
+  constexpr double common_N = 1.5;
+  for (int k = 0; k < 40; ++k) {
+    for (int rest = 0; rest < 100; ++rest) drift_unobserved(supply, state, 1e-3, highest_Pa);
+    update_breakaway(supply, state, {0.0, slope_N_per_Pa, friction_N, common_N}, common_N, highest_Pa);
+  }
+  EXPECT_NEAR(state.breakaway_Pa * slope_N_per_Pa, common_N, 0.02 * common_N);
+  update_breakaway(supply, state, {0.0, slope_N_per_Pa, friction_N, common_N}, -common_N, highest_Pa);
+  EXPECT_LT(state.breakaway_Pa * slope_N_per_Pa, common_N) << "broken away the other way, it errs the other way";
+  slide(state, 60e5, 1, 1, 1, 1e-3);
+  EXPECT_LT(state.breakaway_Pa * slope_N_per_Pa, 0.1 * common_N);
 }
 
 TEST(PressureDifference, ForgetsAFrictionRatioThatSlidingNoLongerConfirms) {
@@ -160,7 +174,7 @@ TEST(Band, ABreakawayTakesTheVarianceOfUnseenChangesAway) {
   PressureState<double> state = begin(60e5);
   for (int k = 0; k < 500; ++k) drift_unobserved(supply, state, 1e-3, highest_Pa);
   const double before_Pa = unobserved_change_Pa(state, 4.0);
-  update_breakaway(supply, state, {0.0, slope_N_per_Pa, friction_N, 0.7}, highest_Pa);
+  update_breakaway(supply, state, {0.0, slope_N_per_Pa, friction_N, 0.7}, 0.0, highest_Pa);
   EXPECT_LT(unobserved_change_Pa(state, 4.0), 0.5 * before_Pa);
 }
 

@@ -8,6 +8,7 @@
 
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/numerics/definite_matrix.hpp"
+#include "spoolflow/calibration/type/spread.hpp"
 #include "spoolflow/calibration/type/type_model.hpp"
 #include "spoolflow/calibration/type/unit_parameters.hpp"
 
@@ -141,7 +142,7 @@ model::Model updated_type(const model::Model& type, const Series& series) {
   out.observer->parameters = unit_parameters(type.observer->parameters, middle);
   out.condensed.parameters = unit_parameters(type.condensed.parameters, middle);
   out.type = type_section(type.type->name, false, spread, known, type.type->environment);
-  set_spread(out, type.type->environment, known);
+  set_spread(out, type.type->environment, of_any_unit(known));
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "spoolflow/calibration/type/unit_effects.hpp"
+#include "spoolflow/sensor/band.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -14,7 +15,30 @@ double variance(const Eigen::MatrixXd& slope, const Eigen::VectorXd& scale, cons
   return of_each.cwiseQuotient(scale.cwiseProduct(scale)).sum();
 }
 
+/// By how much sliding friction falls over the logarithm of the time in which contacts age. A slow spool's are as old
+/// as the time in which they meet anew, and give it what a fast one loses.
+double ageing_in_sliding(const sensor::FrictionParameters<double>& friction) {
+  // Of friction 1 + grows * age over the fresh one, age = t / (ageing time + t).
+  constexpr double sliding = 1 / (1 - sensor::most_friction_share_of_speed);
+  const double grows = std::max(1.0, friction.ageing_ratio) * sliding - 1, age = (sliding - 1) / grows;
+  return grows * age * (1 - age) / sliding;
+}
+
 }  // namespace
+
+KnownDeviations of_any_unit(KnownDeviations known) {
+  known.covariance *= of_hundred_units * of_hundred_units;
+  return known;
+}
+
+KnownDeviations sliding_with_ageing(KnownDeviations known, const sensor::FrictionParameters<double>& friction) {
+  Eigen::MatrixXd turned = Eigen::MatrixXd::Identity(deviating, deviating);
+  const auto ageing_time = static_cast<Eigen::Index>(at(Variation::ageing_time));
+  for (const Variation part : {Variation::spool_friction, Variation::pressure_friction})
+    turned(static_cast<Eigen::Index>(at(part)), ageing_time) = -ageing_in_sliding(friction);
+  known.covariance = turned * known.covariance * turned.transpose();
+  return known;
+}
 
 UnitSpread spread_of(const sensor::ObserverParameters<double>& unit, const KnownDeviations& known) {
   const EffectSlopes slopes = effect_slopes(unit, operating_points(unit), known.covariance.diagonal().cwiseSqrt());

@@ -91,7 +91,11 @@ void set_spread(model::Model& model, const model::EnvironmentWithoutSpread& envi
 }
 
 model::Model type_model(model::Model valve, const Deviations& tolerances) {
-  return type_model(std::move(valve), tolerances, spread_of(tolerances));
+  const KnownDeviations units = spread_of(tolerances);
+  model::Model out = type_model(std::move(valve), tolerances, units);
+  const KnownDeviations sliding = sliding_with_ageing(units, out.observer->parameters.friction);
+  set_spread(out, out.type->environment, of_any_unit(sliding));
+  return out;
 }
 
 model::Model type_model(model::Model valve, const Deviations& tolerances, const KnownDeviations& units) {
@@ -107,7 +111,7 @@ model::Model type_model(model::Model valve, const Deviations& tolerances, const 
   const model::EnvironmentWithoutSpread environment{own.force_N, own.friction_share, own.flow_share,
                                                     valve.observer->parameters.friction.breakaway_share};
   valve.type = type_section(valve.valve.name, false, tolerances, units, environment);
-  set_spread(valve, environment, units);
+  set_spread(valve, environment, of_any_unit(units));
   return valve;
 }
 

@@ -167,15 +167,23 @@ void UnitEvidence::find_rows(Run& run) {
   const auto number = [&](int Sample::*row, EvidenceOf kind, double deviation) {
     int open = -1, direction = 0;
     double from_m = 0, lasted_s = 0;
-    for (Sample& sample : run.samples) {
-      if (sample.*row < 0) {
-        open = -1;
-        continue;
+    std::size_t first = 0;
+    const auto close = [&](std::size_t end) {
+      if (open >= 0 && kind == EvidenceOf::flow && lasted_s < least_flow_row_s) {
+        for (std::size_t k = first; k < end; ++k) run.samples[k].*row = -1;
+        kinds_.pop_back();
+        counts_.pop_back();
+        deviations_.pop_back();
       }
-      lasted_s += sample.time_step_s;
-      const bool over =
-          std::abs(sample.position_m - from_m) > row_travel_m || lasted_s > row_time_s || sample.direction != direction;
-      if (open < 0 || over) {
+      open = -1;
+    };
+    for (std::size_t k = 0; k < run.samples.size(); ++k) {
+      Sample& sample = run.samples[k];
+      const bool turned = kind != EvidenceOf::flow && sample.direction != direction;  // flow knows no direction
+      if (sample.*row < 0 || std::abs(sample.position_m - from_m) > row_travel_m || lasted_s > row_time_s || turned)
+        close(k);
+      if (sample.*row < 0) continue;
+      if (open < 0) {
         open = static_cast<int>(kinds_.size());
         const bool breaks = kind != EvidenceOf::flow && sample.rested_s > 0;
         kinds_.push_back(breaks ? EvidenceOf::breakaway : kind);
@@ -184,10 +192,13 @@ void UnitEvidence::find_rows(Run& run) {
         from_m = sample.position_m;
         lasted_s = 0;
         direction = sample.direction;
+        first = k;
       }
+      lasted_s += sample.time_step_s;
       sample.*row = open;
       counts_.back() += 1;
     }
+    close(run.samples.size());
   };
   const bool has_forces = !run.pressurised || run.has_pressure || run.has_flow;
   const double highest_Pa = type_.observer->parameters.edge.highest_pressure_difference_Pa();

@@ -51,6 +51,8 @@ inline constexpr double row_travel_m = 1e-4, row_time_s = 0.5;
 inline constexpr double fastest_sliding_m_per_s = 0.03;
 /// ... faster than that no row of flow, which would show the meter's lag rather than the edge.
 inline constexpr double fastest_metered_m_per_s = 2e-3;
+/// A shorter row [s] is no row of flow either: a spool that slips shows the meter's lag before its speed shows.
+inline constexpr double least_flow_row_s = 0.02;
 /// So close to either end [share of the stroke] stops may carry force, and a spool that overshoots leaves the maps: no
 /// row of force or flow. Nor is there one above the highest pressure difference of the maps.
 inline constexpr double end_share = 0.015;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
+#include "spoolflow/calibration/type/spread.hpp"
 #include "spoolflow/calibration/type/type_model.hpp"
 #include "tests/calibration/type/virtual_unit.hpp"
 #include "tests/recording/temporary_file.hpp"
@@ -196,8 +197,18 @@ TEST(TypeModel, BreakAwaysOfAnyUnitAreAsUncertainAsTheTimeInWhichFrictionGrowsAt
   for (double rest_s = 0.01; rest_s < 100; rest_s *= 1.1)
     most = std::max(most, std::log(sensor::ageing(own, rest_s) / sensor::ageing(slower, rest_s)) / step);
   const double tolerance = all_variations()[at(Variation::ageing_time)].tolerance;
-  EXPECT_NEAR(type().observer->parameters.friction.breakaway_share, std::hypot(own.breakaway_share, most * tolerance),
-              1e-3);
+  const double spread = of_hundred_units * most * tolerance;
+  EXPECT_NEAR(type().observer->parameters.friction.breakaway_share, std::hypot(own.breakaway_share, spread), 1e-3);
+}
+
+TEST(TypeModel, SlidingFrictionOfAnyUnitIsAsUncertainAsItsContactsAgeToo) {
+  Deviations alike = tolerances_from({});
+  alike[at(Variation::ageing_time)] = 1e-6;
+  const model::Model all_age_alike = type_model(model::read_model(SPOOLFLOW_EXAMPLE_MODEL), alike);
+  EXPECT_GT(type().observer->parameters.environment.friction_share,
+            1.1 * all_age_alike.observer->parameters.environment.friction_share);
+  EXPECT_NEAR(type().observer->parameters.environment.force_N, all_age_alike.observer->parameters.environment.force_N,
+              1e-6);
 }
 
 TEST(TypeModel, TolerancesAreReadInTheirUnitsAndUnknownOnesRefusedByLine) {
