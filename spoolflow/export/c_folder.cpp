@@ -52,8 +52,12 @@ std::vector<ExportedFile> c_folder(const model::Model& model, const FirmwareTarg
   std::vector<ExportedFile> files;
   std::copy_if(sources.begin(), sources.end(), std::back_inserter(files), is_for_c);
   files.push_back({"libvalve_sensor.a", firmware_compiler()(sources, target)});
-  files.push_back({"valve_page.bin", parameter_image(model, contents)});
+  ImageContents of_the_sensor = contents;  // that the library runs
+  of_the_sensor.condensed = !model.has_observer();
+  files.push_back({"valve_page.bin", parameter_image(model, of_the_sensor)});
   files.push_back({"example_pages.c", exported_text("example_pages.c.in")});
+  if (model.has_observer() && !model.whole())
+    files.push_back({"example_references.c", exported_text("example_references.c.in")});
   files.push_back({"README.md", exported_text("c_README.md.in", {{"@VALVE@", model.valve.name},
                                                                  {"@TARGET@", std::string(target.name)},
                                                                  {"@OPTIONS@", std::string(target.options)}})});

@@ -50,11 +50,12 @@ def rules_by_cppcheck(spoolflow, model, sources):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         subprocess.run([spoolflow, "export", "cpp", model, "-o", folder], check=True)
-        shutil.copy(sources / "spoolflow/export/cpp/example_pages.c.in", folder / "example_pages.c")
+        for example in ("example_pages.c", "example_references.c"):
+            shutil.copy(sources / f"spoolflow/export/cpp/{example}.in", folder / example)
         said = "".join(  # each example is a program
             subprocess.run(["cppcheck", "--addon=misra", "--std=c99", "-q", "--enable=style", "-DUINT32_C(x)=x##U", "-I.",
                             "--template={file}:{line} {id}", example], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                           check=True).stdout for example in ("example.c", "example_pages.c"))
+                           check=True).stdout for example in ("example.c", "example_pages.c", "example_references.c"))
     return re.findall(r"^(\S+) misra-c2012-(\d+\.\d+)$", said, re.M), said
 
 

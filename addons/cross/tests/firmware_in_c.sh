@@ -22,7 +22,7 @@ for target in "$@"; do
       *) echo "$target: the library asks for $foreign" >&2 && exit 1 ;;
     esac
   done
-  for example in example example_pages; do
+  for example in example example_pages example_references; do
     arm-none-eabi-gcc -std=c99 -O2 $options -ffunction-sections -Wall -Wextra -Wpedantic -Wconversion -Werror -I. -c $example.c
     arm-none-eabi-gcc -std=c99 -O2 $options -nostartfiles -T "$board" -Wl,--gc-sections "$start" $example.o -L. -lvalve_sensor -lm -o $example.elf
     case $target in

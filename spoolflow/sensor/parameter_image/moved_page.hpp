@@ -3,12 +3,13 @@
 /// spare page word by word, in slices between samples:
 ///
 ///     PageMove move;
-///     if (begin(move, valve, change) == ImageRefusal::none)
+///     if (begin(move, valve, finding_of(machine, state), created_s) == ImageRefusal::none)
 ///       while (!advance(move, 8, [&](std::uint32_t place, std::uint32_t word) { spare_page[place] = word; })) {}
 ///
 /// The first pass sums, the second writes, the magic last. Then check the new page and change over to it as to any
 /// other (image_check.hpp); the page in use stays as it is, to go back to.
 #include "spoolflow/sensor/basis/compiler.hpp"
+#include "spoolflow/sensor/machine_reference.hpp"
 #include "spoolflow/sensor/parameter_image/parameters_from.hpp"
 
 namespace spoolflow::sensor {
@@ -121,6 +122,17 @@ inline ImageRefusal begin(PageMove& move, const ValveParameters& valve, const Pa
   move.words = valve.header->total_bytes / sizeof(std::uint32_t);
   move.rest = 0xFFFFFFFFU;
   return ImageRefusal::none;
+}
+
+/// The same by what references have come to: a finding that moves nothing is `not_physical`.
+inline ImageRefusal begin(PageMove& move, const ValveParameters& valve, const MachineFinding<float>& finding,
+                          std::uint64_t created_s) {
+  constexpr auto flow_per_width = static_cast<float>(ReferencePriors::volume_per_width);
+  move.words = move.next = 0;
+  if (finding.verdict != MachineVerdict::moves) return ImageRefusal::not_physical;
+  return begin(move, valve,
+               PageChange{finding.edge_width, flow_per_width * finding.edge_width_deviation, finding.position_zero_m,
+                          created_s});
 }
 
 /// So many more words, summed or written by `write(place, word)`, places counted in words. True once all is written;

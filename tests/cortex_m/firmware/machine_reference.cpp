@@ -50,9 +50,7 @@ sensor::MachineReference<float> stroke(std::uint32_t k) {
 }
 
 void move_page(const sensor::ValveParameters& valve, const sensor::MachineFinding<float>& finding) {
-  const sensor::PageChange change{finding.edge_width, 0.5F * finding.edge_width_deviation, finding.position_zero_m,
-                                  valve.header->created_s + 1U};
-  board::print("begin_refusal", static_cast<std::uint32_t>(begin(move, valve, change)));
+  board::print("begin_refusal", static_cast<std::uint32_t>(begin(move, valve, finding, valve.header->created_s + 1U)));
   bool finished = false;
   const std::uint32_t slice = costliest(4096, [&](std::uint32_t) {
     finished = advance(move, 8, [](std::uint32_t place, std::uint32_t word) { spare_page[place] = word; });
