@@ -1,6 +1,7 @@
 #pragma once
 /// How one valve of a series differs from the next: a seeded draw on the figures that manufacturing holds least well.
 #include <cstdint>
+#include <string>
 
 #include "spoolflow/rig/instruments/lvdt.hpp"
 #include "spoolflow/rig/plant/plant_parameters.hpp"
@@ -57,5 +58,9 @@ struct ManufacturingSpread {
 
 /// Draws valve number `seed` of the series; the result is inside every described range.
 void draw(const ManufacturingSpread& spread, std::uint64_t seed, PlantParameters& plant, Lvdt& lvdt);
+
+/// The table [tolerances] of campaign.toml: one standard deviation between the units of that series, of a usual one
+/// where the amount is 0. What the spread leaves alone has no key. `nominal`: of one direction, P to B.
+[[nodiscard]] std::string tolerances_text(const ManufacturingSpread& spread, const PlantParameters& nominal);
 
 }  // namespace spoolflow::rig

@@ -11,7 +11,6 @@
 #include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/rig/bench/campaign_loads.hpp"
 #include "spoolflow/rig/bench/flow_bench_campaign.hpp"
-#include "spoolflow/rig/bench/series_tolerances.hpp"
 #include "spoolflow/rig/bench/whole_campaign.hpp"
 #include "spoolflow/rig/plants/plant_group.hpp"
 #include "spoolflow/units/conversion.hpp"
@@ -139,7 +138,7 @@ viscosity_100C_mm2_per_s = {viscosity_100:.1f}
       fmt::arg("stroke", units::mm_from_m(valve.plant.spool.stroke_m)), fmt::arg("fluid", valve.fluid),
       fmt::arg("density", oil.density_15C_kg_per_m3), fmt::arg("viscosity_40", 1e6 * oil.viscosity_40C_m2_per_s),
       fmt::arg("viscosity_100", 1e6 * oil.viscosity_100C_m2_per_s));
-  text += valve.whole ? of_whole_valve(valve) : tolerances_text(valve);
+  text += valve.whole ? of_whole_valve(valve) : tolerances_text(valve.spread, valve.plant);
   for (const CampaignItem& item : items) {
     if (item.protocol.empty()) {
       continue;

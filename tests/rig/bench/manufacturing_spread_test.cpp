@@ -1,11 +1,13 @@
 /// What a virtual campaign states of its series is what the series is drawn with.
-#include "spoolflow/rig/bench/series_tolerances.hpp"
+#include "spoolflow/rig/bench/manufacturing_spread.hpp"
 
 #include <cmath>
 #include <functional>
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "spoolflow/rig/bench/valve_under_test.hpp"
 
 namespace spoolflow::rig {
 namespace {
@@ -32,9 +34,9 @@ double drawn_deviation(const std::function<double(const ValveUnderTest&)>& figur
   return std::sqrt(squares / units - sum * sum / units / units);
 }
 
-TEST(SeriesTolerances, AreTheStandardDeviationsOfUnitsThatAreDrawn) {
+TEST(ManufacturingSpread, IsStatedByTheStandardDeviationsOfUnitsThatAreDrawn) {
   const ValveUnderTest nominal = valve_preset("size_6");
-  const std::string text = tolerances_text(nominal);
+  const std::string text = tolerances_text(nominal.spread, nominal.plant);
   const auto conductance = [](const MeteringEdge& edge) { return edge.notch_width_m * edge.discharge_coefficient; };
   const double width = drawn_deviation(
       [&](const ValveUnderTest& unit) { return conductance(unit.plant.edge_PB) / conductance(nominal.plant.edge_PB); });
@@ -50,12 +52,12 @@ TEST(SeriesTolerances, AreTheStandardDeviationsOfUnitsThatAreDrawn) {
   EXPECT_NEAR(stated(text, "ageing_time") / ageing, 1, 0.1);
 }
 
-TEST(SeriesTolerances, GrowWithTheSpreadAndNameNothingThatIsNotDrawn) {
+TEST(ManufacturingSpread, IsStatedByItsAmountAndNamesNothingThatIsNotDrawn) {
   ValveUnderTest valve = valve_preset("size_6");
-  const std::string usual = tolerances_text(valve);
+  const std::string usual = tolerances_text(valve.spread, valve.plant);
   valve.spread.amount = 0.5;
   valve.spread.ageing_time = 1;
-  const std::string half = tolerances_text(valve);
+  const std::string half = tolerances_text(valve.spread, valve.plant);
   EXPECT_NEAR(stated(half, "spring_rate"), 0.5 * stated(usual, "spring_rate"), 1e-6);
   EXPECT_TRUE(std::isnan(stated(half, "ageing_time")));
 }
