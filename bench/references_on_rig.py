@@ -1,22 +1,25 @@
 #!/usr/bin/env python3
 """What references in the field are worth on worn rig valves: makes recordings, recalibrates, judges by the true flow.
 
-    references_on_rig.py OUT [--tuning] [--spoolflow PROGRAM]
+    references_on_rig.py OUT [--tuning] [--spoolflow PROGRAM] [--in-valve PROGRAM] [SEED ...]
 
 A valve drawn from its series is calibrated by its own campaign, then worn: edges that pass some 10 % more, friction + 30 %, zero + 15 um. It makes 20
-strokes of a cylinder, whose ends are marked in a file, and three seconds of the closed valve; ramps and a duty cycle judge. The cylinder is filled by the true flow of the recording, and by
+strokes of a cylinder, whose ends are marked in a file, and three seconds of the closed valve; ramps and duty cycles judge, six
+of each together, for one alone depends on whether its spool hangs once more or less. The cylinder is filled by the true flow of the recording, and by
 nothing else of it; then with a leaking seal, another consumer, or an area that is wrong in references.toml. --tuning makes the valves on which constants
-are chosen; without it those that nobody looked at. The worn valve is also calibrated again on its bench. What is there already is not made again. Printed are 95 % of the errors in % of full scale and the
+are chosen; without it those that nobody looked at. The worn valve is also calibrated again on its bench, and its references'
+model given the friction and zero that are true: what no reference can better. --in-valve: references_in_valve, to print what the valve itself
+finds. What is there already is not made again. Printed are 95 % of the errors in % of full scale, the same over the fresh valve's, and the
 share in the band. Standard library only.
 """
-import concurrent.futures
-import csv
+import functools
 import json
 import pathlib
 import subprocess
 import sys
 
-SETS = {"tuning": (1913, 5101, 5102, 6201, 6202), "judged": (7301, 7302, 7303)}
+SETS = {"tuning": (1913, 5101, 5102, 6201, 6202, 7301, 7302, 7303, 9401, 9402), "judged": (9403, 9404, 9405)}
+TRUE_WEAR = {"friction_ratio": 1.3, "position_zero_m": 15e-6}  # as in WORN
 WORN = ("[wear]\nfriction_factor = 1.3\nedge_rounding_m = 10e-6\n[plant.edge_PB]\nnotch_width_m = 1.2e-3\n"
         "[instruments.lvdt]\nzero_offset_m = 15e-6\n")
 STROKES = ("duty_cycle", "duration_s = 170\nlowest_percent = 8\nhighest_percent = 92\nslowest_percent_per_s = 10\n"
@@ -27,6 +30,7 @@ JUDGED = {"ramps": ("ramps", "pressure_differences_bar = [34, 57]\nrate_percent_
                    "fastest_percent_per_s = 260\nlongest_hold_s = 2.4\nlowest_pressure_bar = 12\nhighest_pressure_bar = 66\n"
                    "longest_pressure_hold_s = 4.5\n")}
 CLOSED = ("duty_cycle", "duration_s = 3\nlowest_percent = 0\nhighest_percent = 0\n")
+REPEATS = 6  # of each run that judges
 AREA_CM2, LENGTH_MM, STROKE_COUNT, RETURN_S = 40.0, 650.0, 20, 0.4
 # Case: (leakage of the seal [L/min], every third stroke also feeds so much [L/min], stated area over the real one)
 CASES = {"right": (0, 0, 1), "area + 2 %": (0, 0, 1.02), "area - 2 %": (0, 0, 0.98), "seal 1 L/min": (1, 0, 1), "consumer": (0, 6, 1)}
@@ -44,8 +48,8 @@ def must(*command):
 
 
 def columns(path, *names):
-    with open(path, newline="") as file:
-        rows = csv.reader(line for line in file if not line.startswith("#"))
+    with open(path) as file:
+        rows = (line.rstrip("\n").split(",") for line in file if not line.startswith("#"))
         head = next(rows)
         at = [head.index(name) for name in names]
         return list(zip(*([float(row[k]) for k in at] for row in rows)))
@@ -62,15 +66,21 @@ def calibrate(spoolflow, folder, quality, model):
         must(spoolflow, "calibrate", folder / f"{quality}_campaign" / "campaign.toml", "-o", folder / model, "-q")
 
 
-def record(spoolflow, folder, seed, quality, month=0, judging=True):
-    """Strokes and the closed valve, of each month others, and the runs that judge, always the same."""
+def repeated(run):
+    """Names of a run that judges."""
+    return [f"{run}{k or ''}" for k in range(REPEATS)]
+
+
+def record(spoolflow, folder, seed, quality, month=0, judging=REPEATS):
+    """Strokes and the closed valve, of each month others, and so many of each run that judges, always the same."""
     for number, (name, (protocol, run)) in enumerate({"strokes": STROKES, **JUDGED, "closed": CLOSED}.items()):
-        file = folder / f"{quality}_{name}.csv"
-        if file.exists() or (name in JUDGED and not judging):
-            continue
-        scenario = folder / f"{quality}_{name}.toml"
-        scenario.write_text(f'protocol = "{protocol}"\nvalve = "{quality}.toml"\nseed = {seed * 10 + number + (0 if name in JUDGED else 1000 * month)}\n[run]\n{run}')
-        must(spoolflow, "simulate", scenario, "-o", file, "--truth", folder / f"{quality}_{name}.truth.csv", "-q")
+        for k, stem in enumerate(repeated(f"{quality}_{name}")[:judging] if name in JUDGED else [f"{quality}_{name}"]):
+            if (folder / f"{stem}.csv").exists():
+                continue
+            scenario = folder / f"{stem}.toml"
+            drawn = seed * 10 + number + 100000 * k + (0 if name in JUDGED else 1000 * month)
+            scenario.write_text(f'protocol = "{protocol}"\nvalve = "{quality}.toml"\nseed = {drawn}\n[run]\n{run}')
+            must(spoolflow, "simulate", scenario, "-o", folder / f"{stem}.csv", "--truth", folder / f"{stem}.truth.csv", "-q")
 
 
 def make(spoolflow, out, seed):
@@ -83,6 +93,7 @@ def make(spoolflow, out, seed):
         record(spoolflow, folder, seed, quality)
 
 
+@functools.lru_cache(maxsize=100)
 def flows(folder, run):
     return columns(folder / f"{run}.truth.csv", "time_s", "flow_L_min")
 
@@ -116,50 +127,93 @@ def mark(folder, quality, case):
 
 
 def judged(spoolflow, folder, model, run):
+    """95 % of the errors of all recordings of this run [% FS], the largest, the share in the band."""
     full = json.loads(model.read_text())["valve"]["rated_flow_m3_per_s"] * 60000
-    out = folder / f"estimate_{model.stem}_{run}.csv"
-    must(spoolflow, "estimate", model, folder / f"{run}.csv", "-o", out, "-q")
-    found, low, high = columns(out, *(f"flow{part}_L_min" for part in ("", "_lower", "_upper")))
-    out.unlink()
-    _, truth = flows(folder, run)
-    errors = sorted(abs(f - q) for f, q in zip(found, truth))
-    inside = sum(a <= q <= b for a, b, q in zip(low, high, truth)) / len(truth)
-    return 100 * errors[int(0.95 * len(errors))] / full, 100 * errors[-1] / full, inside
+    errors, inside = [], 0
+    for stem in repeated(run):
+        if not (folder / f"{stem}.csv").exists():
+            continue
+        out = folder / f"estimate_{model.stem}_{stem}.csv"
+        must(spoolflow, "estimate", model, folder / f"{stem}.csv", "-o", out, "-q")
+        found, low, high = columns(out, *(f"flow{part}_L_min" for part in ("", "_lower", "_upper")))
+        out.unlink()
+        _, truth = flows(folder, stem)
+        errors += [abs(f - q) for f, q in zip(found, truth)]
+        inside += sum(a <= q <= b for a, b, q in zip(low, high, truth))
+    errors.sort()
+    return 100 * errors[int(0.95 * len(errors))] / full, 100 * errors[-1] / full, inside / len(errors)
 
 
-def shown(figures):
-    return f"{figures[0]:5.2f} / {figures[1]:4.1f}, {100 * figures[2]:5.1f} %"
+def with_wear(spoolflow, model, wear, out):
+    """The model with these parts of its wear replaced: a state of its log to which it goes back."""
+    content = json.loads(model.read_text())
+    log = content["provenance"]["adaptations"]
+    last = log[-1]["wear"]
+    entry = {"tool": "references_on_rig", "created": log[-1]["created"], "adapted_from": log[-1]["adapted_from"], "files": [], "corrections": [],
+             "reasons": []}
+    log += [entry | {"wear": last | wear}, entry | {"wear": last}]
+    given = out.with_suffix(".given.json")
+    given.write_text(json.dumps(content))
+    out.unlink(missing_ok=True)
+    must(spoolflow, "recalibrate", given, "--back-to", sum("wear" in each for each in log) - 1, "-o", out)
+    given.unlink()
+    return out
+
+
+def shown(figures, fresh):
+    return f"{figures[0]:5.2f} (x {figures[0] / fresh[0]:.2f}), {100 * figures[2]:5.1f} %"
+
+
+def print_judged(spoolflow, folder, seed, quality, case, model, fresh):
+    figures = [f"{run} {shown(judged(spoolflow, folder, model, f'{quality}_{run}'), fresh[run])}" for run in JUDGED]
+    print(f"{seed} {quality:6} {case:20}", *figures, flush=True)
+
+
+def print_cases(spoolflow, in_valve, folder, seed, quality, fresh):
+    for case in CASES:
+        references = mark(folder, quality, case)
+        model = folder / f"{references.stem}.model.json"
+        model.unlink(missing_ok=True)
+        recordings = folder / f"{quality}_strokes.csv", folder / f"{quality}_closed.csv"
+        status, text = call(spoolflow, "recalibrate", folder / "model.json", *recordings, "--references", references, "-o", model)
+        (folder / f"{references.stem}.txt").write_text(text)
+        if status:
+            print(f"{seed} {quality:6} {case:20} refused: {text.strip().splitlines()[-1][:150]}", flush=True)
+        else:
+            print_judged(spoolflow, folder, seed, quality, case, model, fresh)
+        if in_valve:
+            print(f"{seed} {quality:6} {case + ', in valve':20}", call(in_valve, folder / "model.json", references, *recordings)[1].strip(), flush=True)
+        if case == "right" and quality == "worn" and status == 0:
+            true = with_wear(spoolflow, model, TRUE_WEAR, folder / "true_friction_and_zero.json")
+            print_judged(spoolflow, folder, seed, quality, "true friction, zero", true, fresh)
+
+
+def option(arguments, name, default):
+    if name not in arguments:
+        return default
+    at = arguments.index(name)
+    value = arguments[at + 1]
+    del arguments[at:at + 2]
+    return value
 
 
 def main(arguments):
+    spoolflow = option(arguments, "--spoolflow", "build/release/bin/spoolflow")
+    in_valve = option(arguments, "--in-valve", "")
     which = "tuning" if "--tuning" in arguments else "judged"
-    spoolflow = "build/release/bin/spoolflow"
-    if "--spoolflow" in arguments:
-        spoolflow = arguments[arguments.index("--spoolflow") + 1]
-        del arguments[arguments.index("--spoolflow"):][:2]
-    places = [argument for argument in arguments if not argument.startswith("--") and argument != spoolflow]
-    if len(places) != 1:
-        sys.exit("references_on_rig.py OUT [--tuning] [--spoolflow PROGRAM]")
+    places = [argument for argument in arguments if not argument.startswith("--")]
+    if not places:
+        sys.exit("references_on_rig.py OUT [--tuning] [--spoolflow PROGRAM] [--in-valve PROGRAM] [SEED ...]")
     out = pathlib.Path(places[0]) / which
-    for seed in SETS[which]:
+    for seed in [int(word) for word in places[1:]] or SETS[which]:
         make(spoolflow, out, seed)
         folder = out / f"{seed}"
+        fresh = {run: judged(spoolflow, folder, folder / "model.json", f"fresh_{run}") for run in JUDGED}
         for quality in ("fresh", "worn"):
-            before = {run: judged(spoolflow, folder, folder / "model.json", f"{quality}_{run}") for run in JUDGED}
-            print(f"{seed} {quality:6} {'without references':18}", *(f"{run} {shown(before[run])}" for run in JUDGED), flush=True)
+            print_judged(spoolflow, folder, seed, quality, "without references", folder / "model.json", fresh)
             if quality == "worn":
-                again = [f"{run} {shown(judged(spoolflow, folder, folder / 'worn_model.json', f'worn_{run}'))}" for run in JUDGED]
-                print(f"{seed} worn   {'calibrated again':18}", *again, flush=True)
-            for case in CASES:
-                references = mark(folder, quality, case)
-                model = folder / f"{references.stem}.model.json"
-                model.unlink(missing_ok=True)
-                status, text = call(spoolflow, "recalibrate", folder / "model.json", folder / f"{quality}_strokes.csv",
-                                    folder / f"{quality}_closed.csv", "--references", references, "-o", model)
-                (folder / f"{references.stem}.txt").write_text(text)
-                figures = ([f"{run} {shown(judged(spoolflow, folder, model, f'{quality}_{run}'))}" for run in JUDGED]
-                           if status == 0 else ["refused: " + text.strip().splitlines()[-1][:150]])
-                print(f"{seed} {quality:6} {case:18}", *figures, flush=True)
+                print_judged(spoolflow, folder, seed, quality, "calibrated again", folder / "worn_model.json", fresh)
+            print_cases(spoolflow, in_valve, folder, seed, quality, fresh)
 
 
 if __name__ == "__main__":

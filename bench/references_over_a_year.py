@@ -31,18 +31,9 @@ def found(model):
     return f"{100 * wear['edge_width']:+5.1f} % {100 * (wear['friction_ratio'] - 1):+4.0f} % {1e6 * wear['position_zero_m']:+5.1f} um"
 
 
-def option(arguments, name, default):
-    if name not in arguments:
-        return default
-    at = arguments.index(name)
-    value = arguments[at + 1]
-    del arguments[at:at + 2]
-    return value
-
-
 def main(arguments):
-    spoolflow = option(arguments, "--spoolflow", "build/release/bin/spoolflow")
-    seed = int(option(arguments, "--seed", 8101))
+    spoolflow = rig.option(arguments, "--spoolflow", "build/release/bin/spoolflow")
+    seed = int(rig.option(arguments, "--seed", 8101))
     healthy = "--healthy" in arguments
     places = [argument for argument in arguments if not argument.startswith("--")]
     if len(places) != 1:
@@ -58,7 +49,7 @@ def main(arguments):
     for month in range(MONTHS + 1):
         quality = f"month_{month}"
         (folder / f"{quality}.toml").write_text(rig.base_of(seed) + ("" if healthy else wear_of(month / MONTHS)))
-        rig.record(spoolflow, folder, seed, quality, month, not healthy)
+        rig.record(spoolflow, folder, seed, quality, month, 0 if healthy else 1)
         if month > 0:
             os.environ["SOURCE_DATE_EPOCH"] = str(CALIBRATED_S + month * MONTH_S)
             references = rig.mark(folder, quality, "right")

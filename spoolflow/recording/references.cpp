@@ -19,7 +19,7 @@ namespace spoolflow::recording {
 namespace {
 
 constexpr std::array<std::string_view, 4> kind_names{"stroke", "pump", "meter", "closed"};
-constexpr std::array<std::string_view, 3> end_names{"marks", "pressure", "switch"};
+constexpr std::array<std::string_view, 4> end_names{"marks", "pressure", "switch", "stalled"};
 constexpr double rad_per_s_per_rpm = std::numbers::pi / 30;
 constexpr double percent = 0.01, m2_per_cm2 = 1e-4, m3_per_cm3 = 1e-6;
 

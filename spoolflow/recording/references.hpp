@@ -17,9 +17,10 @@ enum class ReferenceKind : unsigned char {
 
 /// How the ends of a stroke are seen.
 enum class EndsSeen : unsigned char {
-  marks,     ///< times in a file
-  pressure,  ///< channel pressure_difference falls while the piston stands
-  by_switch  ///< channel `test` is not zero while the piston stands
+  marks,      ///< times in a file
+  pressure,   ///< channel pressure_difference falls while the piston stands
+  by_switch,  ///< channel `test` is not zero while the piston stands
+  stalled     ///< by the valve's own forces: the pressure difference is gone while the valve is open
 };
 
 /// A time from which to which the reference holds, in the recording's own time.

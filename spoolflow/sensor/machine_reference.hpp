@@ -21,6 +21,8 @@ struct ReferencePriors {
   static constexpr double edge_wear = 0.06, position_zero_wear_m = 15e-6;
   /// Of a healthy valve's model: what its volumes all have in common, and where its sensor reads closed.
   static constexpr double model_volume_share = 0.01, closed_uncertainty_m = 4e-6;
+  /// By how much friction that strokes show differs from the model's of a healthy valve.
+  static constexpr double model_friction_share = 0.07;
   /// What the sensor's volume of an interval is off by, by chance: a share of it, and a share of the rated flow.
   static constexpr double volume_chance_share = 0.015, volume_chance_flow_share = 0.005;
   /// References in which the sensor saw less than this share of the oil are of the other direction.

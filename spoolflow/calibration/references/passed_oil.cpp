@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/calibration/references/stalled_strokes.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
 
 namespace spoolflow::calibration {
@@ -81,9 +82,15 @@ std::vector<TimeMark> marks_within(const Reference& reference, const recording::
   return reference.marks;
 }
 
-std::vector<TimeMark> intervals_of(const Reference& reference, const recording::Recording& recording) {
-  if (reference.kind == ReferenceKind::stroke && reference.ends != EndsSeen::marks)
-    return strokes_seen(reference, recording);
+std::vector<TimeMark> intervals_of(const Reference& reference, const recording::Recording& recording,
+                                   const sensor::ObserverParameters<double>& valve, double rated_flow_m3_per_s) {
+  const bool stroke = reference.kind == ReferenceKind::stroke;
+  if (stroke && reference.ends == EndsSeen::stalled) {
+    std::vector<TimeMark> out = stalled_strokes(valve, rated_flow_m3_per_s, recording);
+    std::erase_if(out, [](const TimeMark& mark) { return mark.end_s - mark.begin_s <= shortest_stroke_s; });
+    return out;
+  }
+  if (stroke && reference.ends != EndsSeen::marks) return strokes_seen(reference, recording);
   if (reference.kind != ReferenceKind::meter) return marks_within(reference, recording);
   const double begin_s = recording[Channel::time].front(), end_s = recording[Channel::time].back();
   std::vector<TimeMark> out;
@@ -125,14 +132,14 @@ PassedOil passed_in(const Reference& reference, std::size_t number, const record
 }  // namespace
 
 std::vector<PassedOil> passed_oil(const Reference& reference, std::size_t number, const recording::Recording& recording,
-                                  double rated_flow_m3_per_s) {
+                                  const sensor::ObserverParameters<double>& valve, double rated_flow_m3_per_s) {
   const bool other = !reference.recording.empty() && reference.recording != recording.file.filename().string();
   if (other || reference.kind == ReferenceKind::closed) return {};
   if (reference.kind == ReferenceKind::meter)
     require_channel(reference, recording, Channel::flow_reference, "the meter's flow");
   const double least = reference.kind == ReferenceKind::meter ? least_metered_share * rated_flow_m3_per_s : 0;
   std::vector<PassedOil> out;
-  for (const TimeMark& mark : intervals_of(reference, recording)) {
+  for (const TimeMark& mark : intervals_of(reference, recording, valve, rated_flow_m3_per_s)) {
     const PassedOil oil = passed_in(reference, number, recording, mark);
     if (oil.volume_m3 > least * (mark.end_s - mark.begin_s)) out.push_back(oil);
   }

@@ -5,6 +5,7 @@
 
 #include "spoolflow/recording/recording.hpp"
 #include "spoolflow/recording/references.hpp"
+#include "spoolflow/sensor/observer_parameters.hpp"
 
 namespace spoolflow::calibration {
 
@@ -16,9 +17,12 @@ struct PassedOil {
 };
 
 /// The intervals of one reference in one recording, in their order; none where it is of another recording, and of
-/// `closed`. Intervals of a meter in which less than a hundredth of `rated_flow_m3_per_s` passed are left out. Throws
-/// RecordingError: a channel is missing, marks lie outside the recording, or no interval was found.
+/// `closed`. `valve` sees where a stroke stalls. Intervals of a meter in which less than a hundredth of
+/// `rated_flow_m3_per_s` passed are left out. Throws RecordingError: a channel is missing, marks lie outside the
+/// recording, or no interval was found.
 [[nodiscard]] std::vector<PassedOil> passed_oil(const recording::Reference& reference, std::size_t number,
-                                                const recording::Recording& recording, double rated_flow_m3_per_s);
+                                                const recording::Recording& recording,
+                                                const sensor::ObserverParameters<double>& valve,
+                                                double rated_flow_m3_per_s);
 
 }  // namespace spoolflow::calibration

@@ -50,7 +50,8 @@ MachineEvidence evidence_of(const model::Model& model, const std::vector<recordi
   for (const recording::Recording& recording : recordings) {
     WatchedRun run{&recording, {}};
     for (std::size_t r = 0; r < references.size(); ++r) {
-      const std::vector<PassedOil> oil = passed_oil(references[r], r, recording, model.valve.rated_flow_m3_per_s);
+      const std::vector<PassedOil> oil =
+          passed_oil(references[r], r, recording, model.observer->parameters, model.valve.rated_flow_m3_per_s);
       run.oil.insert(run.oil.end(), oil.begin(), oil.end());
       const bool here =
           references[r].recording.empty() || references[r].recording == recording.file.filename().string();

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "spoolflow/calibration/references/oil_ratios.hpp"
-#include "spoolflow/estimation/columns.hpp"
 #include "spoolflow/numerics/median.hpp"
 #include "spoolflow/sensor/observer.hpp"
 
@@ -16,14 +15,8 @@ using recording::Channel;
 
 /// Innovations of a sensor that has just begun show its first guess.
 constexpr double settling_s = 10;
-
-estimation::Columns columns_of(const recording::Recording& recording) {
-  return {.time_s = recording[Channel::time],
-          .current_A = recording[Channel::current],
-          .voltage_V = recording.column(Channel::voltage),
-          .position_m = recording[Channel::position],
-          .oil_temperature_K = recording.column(Channel::oil_temperature)};
-}
+/// Before the end of an interval its piston may stand already, and oil beat between valve and cylinder [s].
+constexpr double before_end_s = 0.05;
 
 /// Sums over one run.
 class RunView {
@@ -38,6 +31,13 @@ class RunView {
       const double seconds = std::min(to_s, oil(k).end_s) - std::max(from_s, oil(k).begin_s);
       if (seconds > 0) volume_m3_[order_[k]] += seconds * flow_m3_per_s;
     }
+  }
+  /// Whether oil passes by what the machine knows; where it knows nothing of the run, oil may pass at any time.
+  [[nodiscard]] bool oil_passes(double at_s) const {
+    if (order_.empty()) return true;
+    for (std::size_t k = first_; k < order_.size() && oil(k).begin_s <= at_s; ++k)
+      if (at_s <= oil(k).end_s - before_end_s) return true;
+    return false;
   }
   [[nodiscard]] const std::vector<double>& volume_m3() const { return volume_m3_; }
 
@@ -66,6 +66,14 @@ class Innovations {
 
 }  // namespace
 
+estimation::Columns columns_of(const recording::Recording& recording) {
+  return {.time_s = recording[Channel::time],
+          .current_A = recording[Channel::current],
+          .voltage_V = recording.column(Channel::voltage),
+          .position_m = recording[Channel::position],
+          .oil_temperature_K = recording.column(Channel::oil_temperature)};
+}
+
 SensorView view_through(const sensor::ObserverParameters<double>& valve, double rated_flow_m3_per_s,
                         const std::vector<WatchedRun>& runs) {
   SensorView out{{}, 0};
@@ -82,7 +90,8 @@ SensorView view_through(const sensor::ObserverParameters<double>& valve, double 
       sums.add(before_s, now_s, answer.flow_m3_per_s);
       before_s = now_s;
       const auto squared = innovations.next(sensor.state().observer.pressure.innovation_squared, step_s);
-      if (squared && now_s - begin_s >= settling_s) out.sliding_loss_s += step_s * interval_loss(std::sqrt(*squared));
+      if (squared && now_s - begin_s >= settling_s && sums.oil_passes(now_s))
+        out.sliding_loss_s += step_s * interval_loss(std::sqrt(*squared));
     });
     out.volume_m3.insert(out.volume_m3.end(), sums.volume_m3().begin(), sums.volume_m3().end());
   }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "spoolflow/calibration/references/passed_oil.hpp"
+#include "spoolflow/estimation/columns.hpp"
 #include "spoolflow/sensor/observer_parameters.hpp"
 
 namespace spoolflow::calibration {
@@ -14,9 +15,13 @@ struct WatchedRun {
   std::vector<PassedOil> oil;
 };
 
+/// What the sensor reads of a recording, which must outlive it.
+[[nodiscard]] estimation::Columns columns_of(const recording::Recording& recording);
+
 struct SensorView {
   std::vector<double> volume_m3;  ///< the sensor's, of each interval, run after run
-  double sliding_loss_s;          ///< interval_loss() of the innovations, over the time in which the spool slides
+  double
+      sliding_loss_s;  ///< interval_loss() of the innovations, over the time in which the spool slides and oil passes
 };
 
 /// All runs through the sensor with these parameters, each from its beginning.

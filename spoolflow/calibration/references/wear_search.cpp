@@ -122,7 +122,7 @@ Change friction_change(const MachineEvidence& evidence, const WearView& from, co
     at = {at.middle - step, step, {loss_at(at.middle - 2 * step), at.loss[0], at.loss[1]}};
   constexpr double hardly_known = 4 * friction_wear;
   const double deviation = 1 / std::sqrt(std::max(at.curvature(), 1 / (hardly_known * hardly_known)));
-  Change out = of_measured(at.vertex(), std::hypot(deviation, model_friction_share), friction_wear);
+  Change out = of_measured(at.vertex(), std::hypot(deviation, Priors::model_friction_share), friction_wear);
   const double beside = edges.value > 0 ? std::max(edges.evidence, 0.0) : 0;
   out.taken = out.evidence + beside > change_evidence || from.wear != model::WearState{};
   return out;

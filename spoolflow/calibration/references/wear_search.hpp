@@ -15,9 +15,8 @@ using Priors = sensor::ReferencePriors;
 inline constexpr double edge_wear = Priors::edge_wear, position_zero_wear_m = Priors::position_zero_wear_m,
                         model_volume_share = Priors::model_volume_share,
                         closed_uncertainty_m = Priors::closed_uncertainty_m, most_left_out = Priors::most_left_out;
-/// One standard deviation of what wear changes of friction between two looks at a valve, and of a healthy valve's
-/// model.
-inline constexpr double friction_wear = 0.25, model_friction_share = 0.05;
+/// One standard deviation of what wear changes of friction between two looks at a valve.
+inline constexpr double friction_wear = 0.25;
 /// Innovations so far apart count as independent.
 inline constexpr double innovation_memory_s = 0.05;
 /// A change is taken where it is so many times as likely as none, in natural logarithms, its prior width counted.

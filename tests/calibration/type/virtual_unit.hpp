@@ -29,9 +29,11 @@ inline double balancing_current_A(const sensor::ObserverParameters<double>& unit
   return low_A;
 }
 
-/// A slow stroke at each pressure difference, from rest at the closed end, as CSV.
+/// A slow stroke at each pressure difference, from rest at the closed end, as CSV. `stalls_after_s` after its begin the
+/// piston stands at its end, and 0.1 bar are left.
 inline void write_strokes(const std::filesystem::path& file, const sensor::ObserverParameters<double>& unit,
-                          const std::vector<double>& pressures_bar, double full_stroke_m, double way_s = 6) {
+                          const std::vector<double>& pressures_bar, double full_stroke_m, double way_s = 6,
+                          double stalls_after_s = 1e9) {
   std::ofstream out(file);
   out.precision(9);
   out << "time_s,position_mm,current_A,oil_temperature_C,pressure_difference_bar,flow_reference_L_min\n";
@@ -44,7 +46,8 @@ inline void write_strokes(const std::filesystem::path& file, const sensor::Obser
     const double moving_s = std::max(0.0, time_s - rest_s);
     const double phase = std::fmod(moving_s, stroke_s);
     const auto stroke = static_cast<std::size_t>(moving_s / stroke_s);
-    const double pressure_bar = pressures_bar[std::min(stroke, pressures_bar.size() - 1)];
+    const double pressure_bar =
+        phase < stalls_after_s ? pressures_bar[std::min(stroke, pressures_bar.size() - 1)] : 0.1;
     const double share = phase < way_s            ? phase / way_s
                          : phase < way_s + turn_s ? 1
                                                   : std::max(0.0, 1 - (phase - way_s - turn_s) / way_s);

@@ -1,0 +1,20 @@
+#pragma once
+/// Strokes of a cylinder whose ends nothing sees but the valve's own forces: where the piston stands, no oil flows, the
+/// pressure difference is gone, and with it the flow force.
+#include <vector>
+
+#include "spoolflow/recording/recording.hpp"
+#include "spoolflow/recording/references.hpp"
+#include "spoolflow/sensor/observer_parameters.hpp"
+
+namespace spoolflow::calibration {
+
+/// From when the valve opens to when the sensor sees the pressure difference fall, some hundredths of a second after
+/// the piston has come to stand. A stroke counts where the one before it ended so, too, and the valve has closed since:
+/// the piston has gone back. One that the valve broke off, and the one after it, are left out, and so is the
+/// recording's first.
+[[nodiscard]] std::vector<recording::TimeMark> stalled_strokes(const sensor::ObserverParameters<double>& valve,
+                                                               double rated_flow_m3_per_s,
+                                                               const recording::Recording& recording);
+
+}  // namespace spoolflow::calibration
