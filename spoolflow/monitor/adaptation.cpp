@@ -94,7 +94,8 @@ constexpr double day_s = 86400, month_s = 30 * day_s, deviations_95 = 2, percent
 /// What a state is known to where its own uncertainty says less: of a healthy model, one standard deviation; and what
 /// may be hidden of a quantity that references left as it was.
 constexpr double least_width = sensor::ReferencePriors::model_volume_share / sensor::ReferencePriors::volume_per_width,
-                 least_friction = sensor::ReferencePriors::model_friction_share, hidden_width = 0.03, hidden_friction = 0.1, hidden_zero_m = 5e-6;
+                 least_friction = sensor::ReferencePriors::model_friction_share, hidden_width = 0.03,
+                 hidden_friction = 0.1, hidden_zero_m = 5e-6;
 
 bool moved(const model::Adaptation& look, std::string_view quantity) {
   return std::ranges::any_of(look.corrections, [&](const model::Correction& each) { return each.of == quantity; });
