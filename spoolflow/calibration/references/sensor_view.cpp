@@ -5,13 +5,12 @@
 #include <utility>
 
 #include "spoolflow/calibration/references/oil_ratios.hpp"
+#include "spoolflow/calibration/references/recording_columns.hpp"
 #include "spoolflow/numerics/median.hpp"
 #include "spoolflow/sensor/observer.hpp"
 
 namespace spoolflow::calibration {
 namespace {
-
-using recording::Channel;
 
 /// Innovations of a sensor that has just begun show its first guess.
 constexpr double settling_s = 10;
@@ -65,14 +64,6 @@ class Innovations {
 };
 
 }  // namespace
-
-estimation::Columns columns_of(const recording::Recording& recording) {
-  return {.time_s = recording[Channel::time],
-          .current_A = recording[Channel::current],
-          .voltage_V = recording.column(Channel::voltage),
-          .position_m = recording[Channel::position],
-          .oil_temperature_K = recording.column(Channel::oil_temperature)};
-}
 
 SensorView view_through(const sensor::ObserverParameters<double>& valve, double rated_flow_m3_per_s,
                         const std::vector<WatchedRun>& runs) {

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "spoolflow/calibration/references/passed_oil.hpp"
-#include "spoolflow/estimation/columns.hpp"
 #include "spoolflow/sensor/observer_parameters.hpp"
 
 namespace spoolflow::calibration {
@@ -14,9 +13,6 @@ struct WatchedRun {
   const recording::Recording* recording;
   std::vector<PassedOil> oil;
 };
-
-/// What the sensor reads of a recording, which must outlive it.
-[[nodiscard]] estimation::Columns columns_of(const recording::Recording& recording);
 
 struct SensorView {
   std::vector<double> volume_m3;  ///< the sensor's, of each interval, run after run

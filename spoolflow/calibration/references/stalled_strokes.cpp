@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "spoolflow/calibration/references/sensor_view.hpp"
+#include "spoolflow/calibration/references/recording_columns.hpp"
 #include "spoolflow/sensor/observer.hpp"
 
 namespace spoolflow::calibration {
