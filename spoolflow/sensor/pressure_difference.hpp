@@ -185,13 +185,17 @@ constexpr KalmanUpdate<T> weigh(PressureState<T>& state, const ForceInnovation<T
   return {innovation.force_N, gain_Pa_per_N, with_pressure, with_ratio, variance2, T(1) - gain_Pa_per_N * slope};
 }
 
+/// Less of it [Pa] counts as zero: shares of shares become denormal.
+inline constexpr double vanishing_breakaway_Pa = 1;
+
 /// The posterior of the pressure difference.
 template <class T>
 constexpr void correct_pressure(const PressureParameters<T>& pressure, PressureState<T>& state,
                                 const KalmanUpdate<T>& update, T highest_Pa) {
   const T corrected_Pa = state.pressure_difference_Pa + update.gain_Pa_per_N * update.innovation_N;
   state.pressure_difference_Pa = limited(corrected_Pa, T(0), highest_Pa);
-  state.breakaway_Pa *= update.remaining_share;
+  const T breakaway_Pa = update.remaining_share * state.breakaway_Pa;
+  state.breakaway_Pa = magnitude(breakaway_Pa) > T(vanishing_breakaway_Pa) ? breakaway_Pa : T(0);
   state.constrained_correction_Pa = T(0);
   state.variance_Pa2 -= update.gain_Pa_per_N * update.covariance_N_Pa;
   state.covariance_Pa -= update.gain_Pa_per_N * update.ratio_covariance_N;
