@@ -7,10 +7,9 @@ A valve drawn from its series is calibrated by its own campaign, then worn: edge
 strokes of a cylinder, whose ends are marked in a file, and three seconds of the closed valve; ramps and duty cycles judge, six
 of each together, for one alone depends on whether its spool hangs once more or less. The cylinder is filled by the true flow of the recording, and by
 nothing else of it; then with a leaking seal, another consumer, or an area that is wrong in references.toml. --tuning makes the valves on which constants
-are chosen; without it those that nobody looked at. The worn valve is also calibrated again on its bench, and its references'
-model given the friction and zero that are true: what no reference can better. --in-valve: references_in_valve, to print what the valve itself
-finds. What is there already is not made again. Printed are 95 % of the errors in % of full scale, the same over the fresh valve's, and the
-share in the band. Standard library only.
+are chosen; without it others, on which no constant depends. The worn valve is also calibrated again on its bench, and its references'
+model with the true friction and zero: no reference brings more. --in-valve: the program references_in_valve; its findings are printed, too. What is there
+already is not made again. Printed are 95 % of the errors in % of full scale, the same over the fresh valve's, and the share in the band. Standard library only.
 """
 import functools
 import json

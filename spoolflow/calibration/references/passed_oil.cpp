@@ -43,13 +43,7 @@ std::vector<bool> stands(const Reference& reference, const recording::Recording&
   }
   require_channel(reference, recording, Channel::pressure_difference, "which falls while the piston stands");
   const auto pressure_Pa = recording[Channel::pressure_difference];
-  std::vector<double> sorted(pressure_Pa.begin(), pressure_Pa.end());
-  std::erase_if(sorted, [](double value) { return !std::isfinite(value); });
-  std::ranges::sort(sorted);
-  constexpr double fallen = 0.15, high_share = 0.9;
-  const double below_Pa =
-      sorted.empty() ? 0
-                     : fallen * sorted[static_cast<std::size_t>(high_share * static_cast<double>(sorted.size() - 1))];
+  const double below_Pa = fallen_Pa({pressure_Pa.begin(), pressure_Pa.end()});
   for (const double value : pressure_Pa) out.push_back(!(value >= below_Pa));
   return out;
 }
@@ -64,7 +58,7 @@ std::vector<TimeMark> strokes_seen(const Reference& reference, const recording::
   for (std::size_t k = 1; k < standing.size(); ++k) {
     if (standing[k - 1] && !standing[k]) left_s = time_s[k];
     if (standing[k - 1] || !standing[k]) continue;
-    if (time_s[k] - left_s > shortest_stroke_s) out.push_back({left_s, time_s[k], NAN});
+    out.push_back({left_s, time_s[k], NAN});
     left_s = NAN;
   }
   return out;
@@ -85,12 +79,13 @@ std::vector<TimeMark> marks_within(const Reference& reference, const recording::
 std::vector<TimeMark> intervals_of(const Reference& reference, const recording::Recording& recording,
                                    const sensor::ObserverParameters<double>& valve, double rated_flow_m3_per_s) {
   const bool stroke = reference.kind == ReferenceKind::stroke;
-  if (stroke && reference.ends == EndsSeen::stalled) {
-    std::vector<TimeMark> out = stalled_strokes(valve, rated_flow_m3_per_s, recording);
-    std::erase_if(out, [](const TimeMark& mark) { return mark.end_s - mark.begin_s <= shortest_stroke_s; });
+  if (stroke && reference.ends != EndsSeen::marks) {
+    std::vector<TimeMark> out = reference.ends == EndsSeen::stalled
+                                    ? stalled_strokes(valve, rated_flow_m3_per_s, recording)
+                                    : strokes_seen(reference, recording);
+    std::erase_if(out, [](const TimeMark& mark) { return !(mark.end_s - mark.begin_s > shortest_stroke_s); });
     return out;
   }
-  if (stroke && reference.ends != EndsSeen::marks) return strokes_seen(reference, recording);
   if (reference.kind != ReferenceKind::meter) return marks_within(reference, recording);
   const double begin_s = recording[Channel::time].front(), end_s = recording[Channel::time].back();
   std::vector<TimeMark> out;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "spoolflow/calibration/operation/replay.hpp"
 #include "spoolflow/calibration/references/oil_ratios.hpp"
-#include "spoolflow/calibration/references/recording_columns.hpp"
 #include "spoolflow/numerics/median.hpp"
 #include "spoolflow/sensor/observer.hpp"
 
@@ -72,7 +72,7 @@ SensorView view_through(const sensor::ObserverParameters<double>& valve, double 
     RunView sums(run);
     Innovations innovations;
     estimation::RunningSensor sensor(&valve, rated_flow_m3_per_s);
-    const estimation::Columns columns = columns_of(*run.recording);
+    const estimation::Columns columns = operating_columns(*run.recording);
     const double begin_s = columns.time_s.front();
     double before_s = begin_s;
     estimation::run(sensor, columns, [&](std::size_t k, const sensor::Estimate<double>& answer) {
@@ -92,7 +92,7 @@ SensorView view_through(const sensor::ObserverParameters<double>& valve, double 
 std::optional<double> closed_reading_m(const sensor::ObserverParameters<double>& valve,
                                        const recording::Recording& recording) {
   constexpr double without_current = 0.01, least_s = 0.3, comes_to_rest_s = 0.1, near_m = 1e-4;
-  const estimation::Columns columns = columns_of(recording);
+  const estimation::Columns columns = operating_columns(recording);
   const double closed_m = valve.edge.position_m.first;
   std::vector<double> readings_m;
   double silent_s = 0, stood_s = 0, temperature_K = valve.edge.temperature_K.at(1);

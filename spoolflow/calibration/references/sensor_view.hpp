@@ -16,8 +16,7 @@ struct WatchedRun {
 
 struct SensorView {
   std::vector<double> volume_m3;  ///< the sensor's, of each interval, run after run
-  double
-      sliding_loss_s;  ///< interval_loss() of the innovations, over the time in which the spool slides and oil passes
+  double sliding_loss_s;          ///< interval_loss() of the innovations, while the spool slides and oil passes
 };
 
 /// All runs through the sensor with these parameters, each from its beginning.

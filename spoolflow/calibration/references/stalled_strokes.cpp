@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "spoolflow/calibration/references/recording_columns.hpp"
+#include "spoolflow/calibration/operation/replay.hpp"
 #include "spoolflow/sensor/observer.hpp"
 
 namespace spoolflow::calibration {
 namespace {
 
-/// What of the usual pressure difference is left where the piston stands, which is what most samples stay below, and
-/// for how long it must have fallen so far [s].
-constexpr double fallen_share = 0.15, most_samples = 0.9, stays_fallen_s = 0.05;
+/// For how long the pressure difference must have fallen so far [s].
+constexpr double stays_fallen_s = 0.05;
 
 /// The sensor's answers to a recording.
 struct SeenSample {
@@ -23,7 +22,7 @@ std::vector<SeenSample> seen_samples(const sensor::ObserverParameters<double>& v
                                      const recording::Recording& recording) {
   std::vector<SeenSample> out;
   estimation::RunningSensor sensor(&valve, rated_flow_m3_per_s);
-  const estimation::Columns columns = columns_of(recording);
+  const estimation::Columns columns = operating_columns(recording);
   estimation::run(sensor, columns, [&](std::size_t k, const sensor::Estimate<double>& answer) {
     const bool shut = sensor::has(answer.status, sensor::Status::closed) ||
                       sensor::has(answer.status, sensor::Status::other_direction);
@@ -32,22 +31,28 @@ std::vector<SeenSample> seen_samples(const sensor::ObserverParameters<double>& v
   return out;
 }
 
-double fallen_Pa(const std::vector<SeenSample>& samples) {
-  std::vector<double> open;
+std::vector<double> while_open_Pa(const std::vector<SeenSample>& samples) {
+  std::vector<double> out;
   for (const SeenSample& each : samples)
-    if (each.open) open.push_back(each.pressure_difference_Pa);
-  if (open.empty()) return 0;
-  const auto at = static_cast<std::ptrdiff_t>(most_samples * static_cast<double>(open.size() - 1));
-  std::ranges::nth_element(open, open.begin() + at);
-  return fallen_share * open[static_cast<std::size_t>(at)];
+    if (each.open) out.push_back(each.pressure_difference_Pa);
+  return out;
 }
 
 }  // namespace
 
+double fallen_Pa(std::vector<double> pressure_difference_Pa) {
+  constexpr double fallen_share = 0.15, most_samples = 0.9;
+  std::erase_if(pressure_difference_Pa, [](double value) { return !std::isfinite(value); });
+  if (pressure_difference_Pa.empty()) return 0;
+  const auto at = static_cast<std::ptrdiff_t>(most_samples * static_cast<double>(pressure_difference_Pa.size() - 1));
+  std::ranges::nth_element(pressure_difference_Pa, pressure_difference_Pa.begin() + at);
+  return fallen_share * pressure_difference_Pa[static_cast<std::size_t>(at)];
+}
+
 std::vector<recording::TimeMark> stalled_strokes(const sensor::ObserverParameters<double>& valve,
                                                  double rated_flow_m3_per_s, const recording::Recording& recording) {
   const std::vector<SeenSample> samples = seen_samples(valve, rated_flow_m3_per_s, recording);
-  const double least_Pa = fallen_Pa(samples);
+  const double least_Pa = fallen_Pa(while_open_Pa(samples));
   std::vector<recording::TimeMark> out;
   bool from_the_end = false, stands = false;  // of the stroke before; now
   double left_s = NAN, fell_s = NAN;

@@ -9,6 +9,10 @@
 
 namespace spoolflow::calibration {
 
+/// Below what of the usual pressure difference, which is what most samples stay below, the piston stands [Pa]; 0 where
+/// there is no finite sample.
+[[nodiscard]] double fallen_Pa(std::vector<double> pressure_difference_Pa);
+
 /// From when the valve opens to when the sensor sees the pressure difference fall, some hundredths of a second after
 /// the piston has come to stand. A stroke counts where the one before it ended so, too, and the valve has closed since:
 /// the piston has gone back. One that the valve broke off, and the one after it, are left out, and so is the

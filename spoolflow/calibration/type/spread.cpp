@@ -16,7 +16,7 @@ double variance(const Eigen::MatrixXd& slope, const Eigen::VectorXd& scale, cons
 }
 
 /// By how much sliding friction falls over the logarithm of the time in which contacts age. A slow spool's are as old
-/// as the time in which they meet anew, and give it what a fast one loses.
+/// as the time in which each is replaced, and give it what a fast one loses.
 double ageing_in_sliding(const sensor::FrictionParameters<double>& friction) {
   // Of friction 1 + grows * age over the fresh one, age = t / (ageing time + t).
   constexpr double sliding = 1 / (1 - sensor::most_friction_share_of_speed);

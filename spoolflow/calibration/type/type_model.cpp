@@ -90,15 +90,10 @@ void set_spread(model::Model& model, const model::EnvironmentWithoutSpread& envi
   observer.friction.breakaway_share = std::hypot(environment.breakaway_share, spread.breakaway_share);
 }
 
-model::Model type_model(model::Model valve, const Deviations& tolerances) {
-  const KnownDeviations units = spread_of(tolerances);
-  model::Model out = type_model(std::move(valve), tolerances, units);
-  const KnownDeviations sliding = sliding_with_ageing(units, out.observer->parameters.friction);
-  set_spread(out, out.type->environment, of_any_unit(sliding));
-  return out;
-}
+namespace {
 
-model::Model type_model(model::Model valve, const Deviations& tolerances, const KnownDeviations& units) {
+/// Its band is still the valve's own.
+model::Model of_type(model::Model valve, const Deviations& tolerances, const KnownDeviations& units) {
   if (!valve.observer)
     throw CalibrationError(
         "a type needs the full sensor, and the campaign made the condensed one alone; record solenoid_dynamic, and "
@@ -111,8 +106,23 @@ model::Model type_model(model::Model valve, const Deviations& tolerances, const 
   const model::EnvironmentWithoutSpread environment{own.force_N, own.friction_share, own.flow_share,
                                                     valve.observer->parameters.friction.breakaway_share};
   valve.type = type_section(valve.valve.name, false, tolerances, units, environment);
-  set_spread(valve, environment, of_any_unit(units));
   return valve;
+}
+
+}  // namespace
+
+model::Model type_model(model::Model valve, const Deviations& tolerances) {
+  const KnownDeviations units = spread_of(tolerances);
+  model::Model out = of_type(std::move(valve), tolerances, units);
+  const KnownDeviations sliding = sliding_with_ageing(units, out.observer->parameters.friction);
+  set_spread(out, out.type->environment, of_any_unit(sliding));
+  return out;
+}
+
+model::Model type_model(model::Model valve, const Deviations& tolerances, const KnownDeviations& units) {
+  model::Model out = of_type(std::move(valve), tolerances, units);
+  set_spread(out, out.type->environment, of_any_unit(units));
+  return out;
 }
 
 KnownDeviations known_of_type(const model::Model& model, const std::string& file) {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spoolflow/calibration/operation/replay.hpp"
 #include "spoolflow/calibration/type/unit_parameters.hpp"
-#include "spoolflow/estimation/columns.hpp"
 #include "spoolflow/numerics/median.hpp"
 #include "spoolflow/sensor/observer.hpp"
 
@@ -98,11 +98,7 @@ void UnitEvidence::prepare(const UnitRun& of) {
   run.has_pressure = recording.has(Channel::pressure_difference);
   run.has_flow = run.pressurised && recording.has(Channel::flow_reference);
   estimation::RunningSensor sensor(&type, type_.valve.rated_flow_m3_per_s);
-  const estimation::Columns columns{.time_s = recording[Channel::time],
-                                    .current_A = recording[Channel::current],
-                                    .voltage_V = recording.column(Channel::voltage),
-                                    .position_m = recording[Channel::position],
-                                    .oil_temperature_K = recording.column(Channel::oil_temperature)};
+  const estimation::Columns columns = operating_columns(recording);
   SpoolTrack track(type_);
   double before_s = columns.time_s.empty() ? 0 : columns.time_s[0];
   estimation::run(sensor, columns, [&](std::size_t k, const sensor::Estimate<double>& estimate) {
