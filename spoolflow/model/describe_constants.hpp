@@ -130,6 +130,10 @@ void describe_process_noise_constants(Visitor& visitor) {
                     .unit = "Pa",
                     .meaning = "a smaller covariance of pressure difference and friction ratio is none"},
                    sensor::least_covariance_Pa);
+  visitor.constant({.name = "vanishing_breakaway_Pa",
+                    .unit = "Pa",
+                    .meaning = "a smaller pressure difference by a break-away error is none"},
+                   sensor::vanishing_breakaway_Pa);
   visitor.constant({.name = "most_variance_Pa2",
                     .unit = "Pa2",
                     .meaning = "a variance of the pressure difference that reaches this resets the estimate"},

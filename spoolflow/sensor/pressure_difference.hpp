@@ -185,7 +185,7 @@ constexpr KalmanUpdate<T> weigh(PressureState<T>& state, const ForceInnovation<T
   return {innovation.force_N, gain_Pa_per_N, with_pressure, with_ratio, variance2, T(1) - gain_Pa_per_N * slope};
 }
 
-/// Less of it [Pa] counts as zero: shares of shares become denormal.
+/// A smaller pressure difference by a break-away error [Pa] counts as zero: shares of shares become denormal.
 inline constexpr double vanishing_breakaway_Pa = 1;
 
 /// The posterior of the pressure difference.
