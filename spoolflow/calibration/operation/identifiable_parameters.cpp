@@ -1,24 +1,26 @@
 #include "spoolflow/calibration/operation/identifiable_parameters.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "spoolflow/parallel/for_each.hpp"
 
 namespace spoolflow::calibration {
 namespace {
 
 /// Largest relative change of the score where the parameter is turned to half or twice its value.
-double score_change(const OperationParameter& parameter, const sensor::ObserverParameters<double>& parameters,
-                    const std::vector<OperatingRun>& runs, double full_scale_m3_per_s) {
-  const double here = *parameter.value;
-  const double middle = operation_score(parameters, runs, full_scale_m3_per_s);
-  double most = 0;
-  for (const double factor : {0.5, 2.0}) {
-    *parameter.value = std::clamp(factor * here, parameter.lowest, parameter.highest);
-    const double turned = operation_score(parameters, runs, full_scale_m3_per_s);
-    most = std::max(most, std::abs(turned - middle) / middle);
-  }
-  *parameter.value = here;
-  return most;
+double score_change(const OperationParameter& parameter, const OperationTrial& here, double full_scale_m3_per_s) {
+  constexpr std::array<double, 3> factors{1, 0.5, 2};
+  std::array<double, 3> scores{};
+  parallel::for_each(factors.size(), parallel::cores(), [&](std::size_t k) {
+    OperationTrial trial = here;
+    double& value = parameter.in(trial);
+    if (factors[k] != 1) value = std::clamp(factors[k] * value, parameter.lowest, parameter.highest);
+    scores[k] = operation_score(trial, full_scale_m3_per_s);
+  });
+  const double middle = scores[0];
+  return std::max(std::abs(scores[1] - middle), std::abs(scores[2] - middle)) / middle;
 }
 
 }  // namespace
@@ -42,23 +44,22 @@ void assume_rest(sensor::ObserverParameters<double>& parameters) {
   parameters.position_sensor.backlash_m = unknown_backlash_m;
 }
 
-std::vector<OperationParameter> identifiable_parameters(sensor::ObserverParameters<double>& parameters,
-                                                        const std::vector<OperatingRun>& runs,
-                                                        double full_scale_m3_per_s) {
-  const bool rests = undithered_rest_s(parameters, runs) >= least_undithered_rest_s;
+std::vector<OperationParameter> identifiable_parameters(const OperationTrial& trial, double full_scale_m3_per_s) {
+  const std::vector<OperatingRun>& runs = trial.runs();
+  const bool rests = undithered_rest_s(trial.parameters(), runs) >= least_undithered_rest_s;
   std::vector<OperationParameter> out;
-  for (const OperationParameter& parameter : operation_parameters(parameters)) {
+  for (const OperationParameter& parameter : operation_parameters()) {
     const bool identifiable = parameter.shown_by == ShownBy::any_run ||
                               (parameter.shown_by == ShownBy::undithered_rest && rests) ||
                               (parameter.shown_by == ShownBy::score &&
-                               score_change(parameter, parameters, runs, full_scale_m3_per_s) >= least_score_share);
+                               score_change(parameter, trial, full_scale_m3_per_s) >= least_score_share);
     if (identifiable) out.push_back(parameter);
   }
   // The spool's friction on the benches of the other direction may be another share of that in operation.
-  const auto other = std::ranges::find_if(runs, [](const OperatingRun& run) { return run.other != nullptr; });
-  if (other != runs.end()) {
-    out.push_back(
-        {"operation_friction_ratio_p_to_a", &other->other->friction.operation_ratio, 0.5, 2.5, ShownBy::any_run});
+  if (std::ranges::any_of(runs, [](const OperatingRun& run) { return run.other != nullptr; })) {
+    out.push_back({"operation_friction_ratio_p_to_a",
+                   [](OperationTrial& each) -> double& { return each.other().friction.operation_ratio; }, 0.5, 2.5,
+                   ShownBy::any_run});
   }
   return out;
 }

@@ -21,8 +21,7 @@ inline constexpr double least_score_share = 0.01;
 void assume_rest(sensor::ObserverParameters<double>& parameters);
 
 /// Those of all parameters that these recordings identify.
-[[nodiscard]] std::vector<OperationParameter> identifiable_parameters(sensor::ObserverParameters<double>& parameters,
-                                                                      const std::vector<OperatingRun>& runs,
+[[nodiscard]] std::vector<OperationParameter> identifiable_parameters(const OperationTrial& trial,
                                                                       double full_scale_m3_per_s);
 
 }  // namespace spoolflow::calibration

@@ -1,6 +1,7 @@
 #include "spoolflow/calibration/operation/operation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -8,44 +9,44 @@
 #include "spoolflow/calibration/operation/identifiable_parameters.hpp"
 #include "spoolflow/calibration/operation/operation_score.hpp"
 #include "spoolflow/calibration/operation/operation_uncertainty.hpp"
+#include "spoolflow/parallel/for_each.hpp"
 
 namespace spoolflow::calibration {
 namespace {
 
 /// Pattern search: one parameter after the other, by a factor that grows where it helps and shrinks where it does not.
-void search(const std::vector<OperationParameter>& fitted, const std::function<double()>& cost,
-            const std::function<void(double)>& progress) {
-  double best = cost();
+/// A larger and a smaller value are tried at once. Leaves the best values in both trials.
+void search(const std::vector<OperationParameter>& fitted, std::array<OperationTrial, 2>& trials,
+            const std::function<double(OperationTrial&)>& cost, const std::function<void(double)>& progress) {
+  double best = cost(trials[0]);
   constexpr int rounds = 20;
   constexpr double first_step = 1.35;  // as a factor
   std::vector<double> step(fitted.size(), first_step);
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t k = 0; k < fitted.size(); ++k) {
       progress((round + static_cast<double>(k) / static_cast<double>(fitted.size())) / rounds);
-      const double before = *fitted[k].value;
-      bool better = false;
-      for (const double factor : {step[k], 1 / step[k]}) {
-        *fitted[k].value = std::clamp(before * factor, fitted[k].lowest, fitted[k].highest);
-        const double tried = cost();
-        better = tried < best;
-        if (better) {
-          best = tried;
-          break;
-        }
-        *fitted[k].value = before;
-      }
+      const double before = fitted[k].in(trials[0]);
+      std::array<double, 2> tried{};
+      parallel::for_each(trials.size(), parallel::cores(), [&](std::size_t t) {
+        const double factor = t == 0 ? step[k] : 1 / step[k];
+        fitted[k].in(trials[t]) = std::clamp(before * factor, fitted[k].lowest, fitted[k].highest);
+        tried[t] = cost(trials[t]);
+      });
+      const std::size_t chosen = tried[0] < best ? 0 : 1;
+      const bool better = tried[chosen] < best;
+      const double value = better ? fitted[k].in(trials[chosen]) : before;
+      for (OperationTrial& trial : trials) fitted[k].in(trial) = value;
+      if (better) best = tried[chosen];
       step[k] = better ? std::min(2.0, 1 + 1.3 * (step[k] - 1)) : 1 + 0.6 * (step[k] - 1);
     }
   }
 }
 
 /// Names of those of all parameters that are not identifiable.
-std::vector<std::string> not_identifiable(sensor::ObserverParameters<double>& parameters,
-                                          const std::vector<OperationParameter>& identifiable) {
+std::vector<std::string> not_identifiable(const std::vector<OperationParameter>& identifiable) {
   std::vector<std::string> out;
-  for (const OperationParameter& parameter : operation_parameters(parameters)) {
-    if (std::ranges::none_of(identifiable,
-                             [&](const OperationParameter& each) { return each.value == parameter.value; }))
+  for (const OperationParameter& parameter : operation_parameters()) {
+    if (std::ranges::none_of(identifiable, [&](const OperationParameter& each) { return each.in == parameter.in; }))
       out.emplace_back(parameter.name);
   }
   return out;
@@ -69,22 +70,27 @@ OperationFit fit_operation(sensor::ObserverParameters<double>& parameters, const
   // Dither that hardly frees the spool shows of friction, and the search must not pass it by.
   const double given_freeing_share = parameters.friction.freeing_share;
   parameters.friction.freeing_share = 1;
-  const std::vector<OperationParameter> all = identifiable_parameters(parameters, runs, full_scale_m3_per_s);
-  out.not_identifiable = not_identifiable(parameters, all);
+  std::array<OperationTrial, 2> trials{OperationTrial(parameters, runs), OperationTrial(parameters, runs)};
+  const std::vector<OperationParameter> all = identifiable_parameters(trials[0], full_scale_m3_per_s);
+  out.not_identifiable = not_identifiable(all);
   std::vector<double> prior;
-  for (const OperationParameter& parameter : all) prior.push_back(*parameter.value);
+  for (const OperationParameter& parameter : all) prior.push_back(parameter.in(trials[0]));
   // An operating recording shows one supply and one oil temperature: a parameter moves only where that pays.
   constexpr double pull = 0.1;
-  const auto cost = [&] {
+  const auto cost = [&](OperationTrial& trial) {
     double distance2 = 0;
-    for (std::size_t k = 0; k < all.size(); ++k) distance2 += std::pow(std::log(*all[k].value / prior[k]), 2);
-    return operation_score(parameters, runs, full_scale_m3_per_s) * (1 + pull * distance2);
+    for (std::size_t k = 0; k < all.size(); ++k) distance2 += std::pow(std::log(all[k].in(trial) / prior[k]), 2);
+    return operation_score(trial, full_scale_m3_per_s) * (1 + pull * distance2);
   };
 
-  out.score_before = operation_score(parameters, runs, full_scale_m3_per_s);
-  search(all, cost, progress);
-  out.score = operation_score(parameters, runs, full_scale_m3_per_s);
-  out.known = known_of_operation(all, parameters, runs, full_scale_m3_per_s, pull * out.score);
+  out.score_before = operation_score(trials[0], full_scale_m3_per_s);
+  search(all, trials, cost, progress);
+  out.score = operation_score(trials[0], full_scale_m3_per_s);
+  out.known = known_of_operation(all, trials[0], full_scale_m3_per_s, pull * out.score);
+  parameters = trials[0].parameters();
+  for (const OperatingRun& run : runs) {
+    if (run.other != nullptr) *run.other = trials[0].other();
+  }
   parameters.pressure = given_supply;
   out.force_error_ratio = force_error_ratio(parameters, runs);
   if (!rests) out.force_error_ratio = std::max(out.force_error_ratio, least_dithered_force_error_ratio);

@@ -6,18 +6,41 @@
 
 namespace spoolflow::calibration {
 
-std::vector<OperationParameter> operation_parameters(sensor::ObserverParameters<double>& parameters) {
-  sensor::FrictionParameters<double>& friction = parameters.friction;
+OperationTrial::OperationTrial(const sensor::ObserverParameters<double>& parameters,
+                               const std::vector<OperatingRun>& runs)
+    : directions_{parameters}, runs_(runs) {
+  const auto with_other = std::ranges::find_if(runs, [](const OperatingRun& run) { return run.other != nullptr; });
+  if (with_other == runs.end()) return;
+  directions_.push_back(*with_other->other);
+  for (OperatingRun& run : runs_) {
+    if (run.other != nullptr) run.other = &directions_.back();
+  }
+}
+
+std::vector<OperationParameter> operation_parameters() {
+  const auto rest = ShownBy::undithered_rest;
   return {
-      {"operation_friction_ratio", &friction.operation_ratio, 0.5, 2.5, ShownBy::any_run},
-      {"friction_ageing_ratio", &friction.ageing_ratio, 1.01, 12, ShownBy::undithered_rest},
-      {"friction_ageing_s", &friction.ageing_s, 0.1, 20, ShownBy::undithered_rest},
-      {"contact_stiffness_N_per_m", &friction.contact_stiffness_N_per_m, 5e5, 5e7, ShownBy::undithered_rest},
-      {"friction_tolerance_N", &friction.tolerance_N, 0.3, 2.5, ShownBy::undithered_rest},
-      {"breakaway_share", &friction.breakaway_share, 0.05, 0.4, ShownBy::undithered_rest},
-      {"band_friction_share", &parameters.band.friction_share, 0.01, 0.2, ShownBy::any_run},
-      {"position_backlash_m", &parameters.position_sensor.backlash_m, 5e-8, 4e-6, ShownBy::undithered_rest},
-      {"moving_mass_kg", &parameters.moving_mass_kg, 0.02, 2, ShownBy::score},
+      {"operation_friction_ratio",
+       [](OperationTrial& trial) -> double& { return trial.parameters().friction.operation_ratio; }, 0.5, 2.5,
+       ShownBy::any_run},
+      {"friction_ageing_ratio",
+       [](OperationTrial& trial) -> double& { return trial.parameters().friction.ageing_ratio; }, 1.01, 12, rest},
+      {"friction_ageing_s", [](OperationTrial& trial) -> double& { return trial.parameters().friction.ageing_s; }, 0.1,
+       20, rest},
+      {"contact_stiffness_N_per_m",
+       [](OperationTrial& trial) -> double& { return trial.parameters().friction.contact_stiffness_N_per_m; }, 5e5, 5e7,
+       rest},
+      {"friction_tolerance_N", [](OperationTrial& trial) -> double& { return trial.parameters().friction.tolerance_N; },
+       0.3, 2.5, rest},
+      {"breakaway_share", [](OperationTrial& trial) -> double& { return trial.parameters().friction.breakaway_share; },
+       0.05, 0.4, rest},
+      {"band_friction_share", [](OperationTrial& trial) -> double& { return trial.parameters().band.friction_share; },
+       0.01, 0.2, ShownBy::any_run},
+      {"position_backlash_m",
+       [](OperationTrial& trial) -> double& { return trial.parameters().position_sensor.backlash_m; }, 5e-8, 4e-6,
+       rest},
+      {"moving_mass_kg", [](OperationTrial& trial) -> double& { return trial.parameters().moving_mass_kg; }, 0.02, 2,
+       ShownBy::score},
   };
 }
 
@@ -59,10 +82,9 @@ OperationOutcome together(const std::vector<OperationOutcome>& stretches) {
   return out;
 }
 
-double operation_score(const sensor::ObserverParameters<double>& parameters, const std::vector<OperatingRun>& runs,
-                       double full_scale_m3_per_s) {
+double operation_score(const OperationTrial& trial, double full_scale_m3_per_s) {
   constexpr double all_s = std::numeric_limits<double>::infinity();
-  return together(replay_stretches(parameters, runs, all_s)).score(full_scale_m3_per_s);
+  return together(replay_stretches(trial.parameters(), trial.runs(), all_s)).score(full_scale_m3_per_s);
 }
 
 }  // namespace spoolflow::calibration

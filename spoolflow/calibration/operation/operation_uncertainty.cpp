@@ -6,6 +6,7 @@
 #include "spoolflow/calibration/numerics/definite_matrix.hpp"
 #include "spoolflow/calibration/numerics/fitted_parameters.hpp"
 #include "spoolflow/calibration/operation/operation_score.hpp"
+#include "spoolflow/parallel/for_each.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -44,24 +45,36 @@ struct Curvature {
   Eigen::MatrixXd curvature;  ///< of their sum
 };
 
-/// By differences; `at(a, log_a, b, log_b)` are the scores of the stretches with the parameters a and b turned so far.
-template <class Scores>
+/// Scores of the stretches with one parameter turned, or with two.
+struct Turned {
+  std::size_t a, b;
+  double log_a, log_b;
+  Eigen::VectorXd scores;
+};
+
+/// By differences. `turn` finds the scores of each.
+template <class Turn>
 Curvature curvature_about(const Eigen::VectorXd& middle, const std::vector<Eigen::Index>& free, double pull,
-                          const Scores& at) {
+                          const Turn& turn) {
+  const auto index = [&](Eigen::Index r) { return static_cast<std::size_t>(free[static_cast<std::size_t>(r)]); };
   const auto count = static_cast<Eigen::Index>(free.size());
+  std::vector<Turned> turned;
+  for (Eigen::Index r = 0; r < count; ++r) {
+    for (const double step : {log_step, -log_step}) turned.push_back({index(r), index(r), step, 0, {}});
+    for (Eigen::Index c = 0; c < r; ++c) turned.push_back({index(r), index(c), log_step, log_step, {}});
+  }
+  parallel::for_each(turned.size(), parallel::cores(), [&](std::size_t k) { turn(turned[k]); });
+
   Curvature out{Eigen::MatrixXd(middle.size(), count), Eigen::MatrixXd(count, count)};
   Eigen::VectorXd above(count);
+  auto next = turned.cbegin();
   for (Eigen::Index r = 0; r < count; ++r) {
-    const Eigen::Index k = free[static_cast<std::size_t>(r)];
-    const Eigen::VectorXd up = at(k, log_step, k, 0), down = at(k, -log_step, k, 0);
+    const Eigen::VectorXd &up = (next++)->scores, &down = (next++)->scores;
     out.slopes.col(r) = (up - down) / (2 * log_step);
     above(r) = up.sum();
     out.curvature(r, r) = (up.sum() + down.sum() - 2 * middle.sum()) / (log_step * log_step) + 2 * pull;
-  }
-  for (Eigen::Index r = 0; r < count; ++r) {
     for (Eigen::Index c = 0; c < r; ++c) {
-      const double both =
-          at(free[static_cast<std::size_t>(r)], log_step, free[static_cast<std::size_t>(c)], log_step).sum();
+      const double both = (next++)->scores.sum();
       out.curvature(r, c) = out.curvature(c, r) = (both - above(r) - above(c) + middle.sum()) / (log_step * log_step);
     }
   }
@@ -83,33 +96,30 @@ Eigen::MatrixXd covariance_from(Curvature score, double pull) {
 
 }  // namespace
 
-model::Fit known_of_operation(const std::vector<OperationParameter>& fitted,
-                              const sensor::ObserverParameters<double>& parameters,
-                              const std::vector<OperatingRun>& runs, double full_scale_m3_per_s, double pull) {
+model::Fit known_of_operation(const std::vector<OperationParameter>& fitted, const OperationTrial& trial,
+                              double full_scale_m3_per_s, double pull) {
   std::vector<std::string> names;
   std::vector<double> values;
   std::vector<Eigen::Index> free;
+  OperationTrial found = trial;
   for (const OperationParameter& parameter : fitted) {
-    if (*parameter.value > 1.001 * parameter.lowest && *parameter.value < 0.999 * parameter.highest)
+    const double value = parameter.in(found);
+    if (value > 1.001 * parameter.lowest && value < 0.999 * parameter.highest)
       free.push_back(static_cast<Eigen::Index>(names.size()));
     names.emplace_back(parameter.name);
-    values.push_back(*parameter.value);
+    values.push_back(value);
   }
-  const std::vector<OperationOutcome> here = replay_stretches(parameters, runs, stretch_s);
+  const std::vector<OperationOutcome> here = replay_stretches(found.parameters(), found.runs(), stretch_s);
   const double rms_m3_per_s = std::max(1e-9 * full_scale_m3_per_s, together(here).error.rms());
-  const auto turned = [&](Eigen::Index a, double log_a, Eigen::Index b, double log_b) {
-    double& value_a = *fitted[static_cast<std::size_t>(a)].value;
-    double& value_b = *fitted[static_cast<std::size_t>(b)].value;
-    const double before_a = value_a, before_b = value_b;
-    value_a *= std::exp(log_a);
-    value_b *= std::exp(log_b);
-    Eigen::VectorXd out = scores(replay_stretches(parameters, runs, stretch_s), rms_m3_per_s, full_scale_m3_per_s);
-    value_a = before_a;
-    value_b = before_b;
-    return out;
+  const auto turn = [&](Turned& turned) {
+    OperationTrial each = trial;
+    fitted[turned.a].in(each) *= std::exp(turned.log_a);
+    fitted[turned.b].in(each) *= std::exp(turned.log_b);
+    turned.scores =
+        scores(replay_stretches(each.parameters(), each.runs(), stretch_s), rms_m3_per_s, full_scale_m3_per_s);
   };
   const Eigen::MatrixXd on_log_scale =
-      covariance_from(curvature_about(scores(here, rms_m3_per_s, full_scale_m3_per_s), free, pull, turned), pull);
+      covariance_from(curvature_about(scores(here, rms_m3_per_s, full_scale_m3_per_s), free, pull, turn), pull);
   const Eigen::Map<const Eigen::VectorXd> scale(values.data(), static_cast<Eigen::Index>(values.size()));
   const Eigen::MatrixXd covariance =
       scale.asDiagonal() * spread_over(scale.size(), free, on_log_scale) * scale.asDiagonal();
