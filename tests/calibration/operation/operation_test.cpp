@@ -137,7 +137,7 @@ recording::Recording steady(const sensor::ClosedFormValve& valve) {
 }
 
 TEST(Operation, ScoreIsInfiniteWhereThereIsNothingToCompare) {
-  EXPECT_TRUE(std::isinf(operation_score(sensor::closed_form_observer<double>({}), {}, 1e-3)));
+  EXPECT_TRUE(std::isinf(operation_score({sensor::closed_form_observer<double>({}), {}}, 1e-3)));
 }
 
 TEST(Operation, ScoreOfARunWhoseReferenceEndsIsThatOfTheRunCutThere) {
@@ -150,9 +150,9 @@ TEST(Operation, ScoreOfARunWhoseReferenceEndsIsThatOfTheRunCutThere) {
   for (const Channel channel : {Channel::time, Channel::current, Channel::voltage, Channel::position,
                                 Channel::oil_temperature, Channel::flow_reference})
     cut.column(channel).resize(half);
-  const double score = operation_score(parameters, only(missing), valve.full_scale_m3_per_s());
+  const double score = operation_score({parameters, only(missing)}, valve.full_scale_m3_per_s());
   EXPECT_TRUE(std::isfinite(score));
-  EXPECT_DOUBLE_EQ(score, operation_score(parameters, only(cut), valve.full_scale_m3_per_s()));
+  EXPECT_DOUBLE_EQ(score, operation_score({parameters, only(cut)}, valve.full_scale_m3_per_s()));
 }
 
 /// The observer of that valve with a spring that is wrong by so many standard deviations of what the model states of
