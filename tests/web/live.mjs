@@ -247,14 +247,17 @@ test('alarms are raised, acknowledged by a button, and stay acknowledged over a 
 
 test('a valve’s plot moves 20 to 50 times a second, goes stale with the program, and comes back by itself', async () => {
   const { page } = await opened('#/valve/press_1');
-  const [socket] = await Promise.all([page.waitForEvent('websocket'), page.reload()]);
+  let frames = 0;
+  page.on('websocket', (socket) => socket.on('framereceived', () => ++frames)); // a busy machine may close one and open another
+  await page.reload();
   await page.waitForSelector('canvas.plot');
   await moves(page);
   // Each frame is the stretch of time behind the one before: 40 of them a second of the samples, at whatever pace they come here.
   const at = performance.now();
-  let frames = 0;
-  await socket.waitForEvent('framereceived', { predicate: () => ++frames === 100, timeout: 60000 });
-  const rate = 100_000 / (performance.now() - at);
+  const before = frames;
+  while (frames < before + 100 && performance.now() < at + 120_000) await page.waitForTimeout(20);
+  assert.ok(frames >= before + 100, `${frames - before} frames in two minutes`);
+  const rate = (1000 * (frames - before)) / (performance.now() - at);
   console.log(`${rate.toFixed(1)} frames a second`);
   assert.ok(rate < 100, `${rate} frames a second`);
   await page.waitForFunction(() => document.querySelectorAll('figure.history').length >= 2);
