@@ -123,35 +123,48 @@ struct Contact {
   bool creeps;
 };
 
-/// Whether the spool moves the sensor along, and which way.
+/// The spool moves the sensor along, which engages the backlash that way.
 template <class T>
-SPOOLFLOW_INLINE constexpr void engage(FrictionState<T>& state, T moved_m, T deadband_m, T time_step_s) {
+SPOOLFLOW_INLINE constexpr void engage(FrictionState<T>& state, T moved_m, T deadband_m) {
   const bool goes_on = !(moved_m * state.engaged_m < T(0));
-  const bool moves = !is_zero(moved_m);
   state.engaged_m = moved_m + (goes_on ? state.engaged_m : T(0));
   const T size2 = squared(state.engaged_m);
   const T doubtful2 = squared(T(doubtful_engagement_deadbands) * deadband_m);
-  const T sure = (state.engaged_m < T(0) ? T(-1) : T(1)) * size2 / larger(size2 + doubtful2, T(1e-30));
-  const T left = T(1) - smaller(time_step_s / T(engagement_memory_s), T(1));
-  state.engagement = moves ? sure : left * state.engagement;
+  state.engagement = (state.engaged_m < T(0) ? T(-1) : T(1)) * size2 / larger(size2 + doubtful2, T(1e-30));
 }
 
-/// At rest: friction changes with the pre-sliding displacement. Dahl: stiffness fades towards the limit.
+/// Without displacement it is less and less known at which end of its backlash the sensor lies.
+template <class T>
+SPOOLFLOW_INLINE constexpr void forget_engagement(FrictionState<T>& state, T time_step_s) {
+  state.engagement *= T(1) - smaller(time_step_s * T(1 / engagement_memory_s), T(1));
+}
+
+/// The contacts give way. Dahl: stiffness fades towards the limit.
+template <class T>
+SPOOLFLOW_INLINE constexpr void displace(const FrictionParameters<T>& friction, FrictionState<T>& state,
+                                         const Contact<T>& contact, T moved_m) {
+  const T sign = moved_m < T(0) ? T(-1) : T(1);
+  const T reserve = limited(T(1) - sign * contact.residual_N / contact.holds_N, T(least_stiffness_share), T(1));
+  state.presliding_N += friction.contact_stiffness_N_per_m * moved_m * reserve;
+  if (!contact.creeps) engage(state, moved_m, contact.deadband_m);
+}
+
+/// At rest: friction changes with the pre-sliding displacement, beyond what noise may fake: with few samples.
 template <class T>
 SPOOLFLOW_INLINE constexpr void follow_displacement(const FrictionParameters<T>& friction, FrictionState<T>& state,
                                                     const Contact<T>& contact, T position_m, T time_step_s) {
   state.rest_s = smaller(state.rest_s + time_step_s, T(longest_rest_s));
-  const T share = larger(time_step_s / larger(state.rest_s, T(least_rest_s)),
-                         time_step_s / (T(presliding_smoothing_s) + time_step_s));
-  state.smooth_m += smaller(share, T(1)) * (position_m - state.smooth_m);
+  const T averaged_s = smaller(larger(state.rest_s, T(least_rest_s)), T(presliding_smoothing_s) + time_step_s);
+  state.smooth_m += time_step_s / averaged_s * (position_m - state.smooth_m);
   const T before_m = state.followed_m;
   state.followed_m =
-      limited(state.followed_m, state.smooth_m - contact.deadband_m, state.smooth_m + contact.deadband_m);
+      limited(before_m, state.smooth_m - contact.deadband_m, state.smooth_m + contact.deadband_m);
   const T moved_m = state.followed_m - before_m;
-  const T sign = moved_m < T(0) ? T(-1) : T(1);
-  const T reserve = limited(T(1) - sign * contact.residual_N / contact.holds_N, T(least_stiffness_share), T(1));
-  state.presliding_N += friction.contact_stiffness_N_per_m * moved_m * reserve;
-  if (!contact.creeps) engage(state, moved_m, contact.deadband_m, time_step_s);
+  if (!is_zero(moved_m)) {
+    displace(friction, state, contact, moved_m);
+  } else if (!contact.creeps) {
+    forget_engagement(state, time_step_s);
+  }
   // A spool that moves the sensor is at that end of its backlash, and holds no more than the contact bears.
   const T most_N = larger(contact.sticking_N - contact.half_width_N, T(0));
   state.presliding_N = limited(state.presliding_N, -most_N, most_N);
@@ -213,8 +226,9 @@ SPOOLFLOW_INLINE constexpr FrictionInterval<T> step(const FrictionParameters<T>&
   FrictionInterval<T> out{-bounds.sticking_N, bounds.sticking_N, breakaway_N, rested_s};
   if (creeps) return out;
   // Friction lies on the side of the estimate to which the backlash engages.
-  const T below_N = half_width_N * (T(1) - T(engagement_certainty) * larger(state.engagement, T(0)));
-  const T above_N = half_width_N * (T(1) + T(engagement_certainty) * smaller(state.engagement, T(0)));
+  const T engaged_N = T(engagement_certainty) * half_width_N * state.engagement;
+  const T below_N = half_width_N - at_least_zero(engaged_N);
+  const T above_N = half_width_N - at_least_zero(-engaged_N);
   out.lower_N = larger(state.presliding_N - below_N, -holds_N);
   out.upper_N = smaller(state.presliding_N + above_N, holds_N);
   return out;
