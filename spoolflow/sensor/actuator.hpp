@@ -121,14 +121,17 @@ SPOOLFLOW_INLINE constexpr ActuatorEstimate<T> step(const ActuatorParameters<T>&
   const Cell<T> current = locate<force_map_currents>(force_map.row_axis, state.coil.magnetising_current_A);
   const Cell<T> position = locate<force_map_positions>(force_map.column_axis, sample.position_m);
   const MapPoint<T> force = force_map.at(current, position);
-  // Above the largest current of the map the force goes on with its slope, which saturation makes too large.
-  const T beyond_A = larger(state.coil.magnetising_current_A - force_map.row_axis.at(force_map_currents - 1), T(0));
-  const T beyond_N = force.row_slope * beyond_A;
-  if (judged) {
+  T force_N = force.value;
+  if (judged)
     judge_force(actuator, state, current, position, force.row_slope, sample.current_A - state.coil.static_current_A);
-    if (beyond_A > T(0)) state.uncertainty_N += T(saturation_share) * beyond_N;
+  // Above the largest current of the map the force goes on with its slope, which saturation makes too large.
+  const T largest_A = force_map.row_axis.at(force_map_currents - 1);
+  if (unlikely(state.coil.magnetising_current_A > largest_A)) {
+    const T beyond_N = force.row_slope * (state.coil.magnetising_current_A - largest_A);
+    force_N += beyond_N;
+    if (judged) state.uncertainty_N += T(saturation_share) * beyond_N;
   }
-  return {force.value + beyond_N, state.uncertainty_N, state.friction_half_width_N,
+  return {force_N,                state.uncertainty_N, state.friction_half_width_N,
           force.row_slope,        force.column_slope,  force.inside};
 }
 

@@ -105,7 +105,7 @@ SPOOLFLOW_INLINE constexpr Dither<T> follow_dither(DitherState<T>& state, T curr
   const T back_A = state.direction * (state.extreme_A - current_A);
   if (back_A < T(0)) state.extreme_A = current_A;
   const T least_A = T(least_dither_swing_share) * largest_current_A;
-  const bool turns = back_A > larger(T(turning_share) * state.swing_A, T(0.5) * least_A);
+  const bool turns = back_A > T(0.5) * least_A && back_A > T(turning_share) * state.swing_A;
   const bool begins = turns && state.direction < T(0);
   if (turns) {
     const T swing_A = state.direction * (state.extreme_A - state.turned_A);
@@ -144,7 +144,7 @@ struct FrictionSwingState {
   T half_swing_N{};
   T excess_N{};  ///< of the peaks over sliding friction, while the spool moves
   bool frees{};  ///< dither the spool: both ways in each period
-  T periods{};   ///< since dither began, up to 2
+  T periods{};   ///< since dither began, up to 2; -1 without dither
 };
 
 static_assert(std::is_trivially_copyable_v<FrictionSwingState<float>>);
@@ -152,8 +152,8 @@ static_assert(std::is_trivially_copyable_v<FrictionSwingState<float>>);
 /// As {} would, without a library that clears memory.
 template <class T>
 constexpr void forget(FrictionSwingState<T>& state) {
-  state.flow_force_N = state.half_swing_N = state.excess_N = state.periods = T(0);
-  state.highest_N = state.lowest_N = state.last_highest_N = state.last_lowest_N = T(0);
+  state.excess_N = state.last_highest_N = T(0);
+  state.periods = T(-1);
   state.frees = false;
 }
 
@@ -164,6 +164,13 @@ struct FrictionSwing {
   T half_swing_N;  ///< >= 0
   bool settled;    ///< a whole period has been measured
 };
+
+/// Dither begins. Its first extremes are what friction was without it, with the sample before.
+template <class T>
+SPOOLFLOW_INLINE constexpr void begin_swing(FrictionSwingState<T>& state) {
+  state.periods = state.half_swing_N = state.flow_force_N = T(0);
+  state.highest_N = state.lowest_N = state.last_lowest_N = state.last_highest_N;
+}
 
 /// A period is over: what was measured in it is kept.
 template <class T>
@@ -180,13 +187,13 @@ SPOOLFLOW_INLINE constexpr void turn_swing(FrictionSwingState<T>& state, T resid
 template <class T>
 SPOOLFLOW_INLINE constexpr FrictionSwing<T> follow_swing(FrictionSwingState<T>& state, const Dither<T>& dither,
                                                          T residual_N) {
-  const bool starts = !dither.present;
-  if (starts) {
-    state.periods = state.half_swing_N = state.flow_force_N = T(0);
-    state.highest_N = state.lowest_N = state.last_highest_N = state.last_lowest_N = residual_N;
+  if (!dither.present) {
+    state.periods = T(-1);
+    state.last_highest_N = residual_N;
+    return {residual_N, T(0), true};
   }
-  if (!dither.present) return {residual_N, T(0), starts};
-  if (dither.began && !starts) turn_swing(state, residual_N);
+  if (state.periods < T(0)) begin_swing(state);
+  if (dither.began) turn_swing(state, residual_N);
   const T then_N = residual_N + state.flow_force_N;
   state.highest_N = larger(state.highest_N, then_N);
   state.lowest_N = smaller(state.lowest_N, then_N);
@@ -199,8 +206,7 @@ SPOOLFLOW_INLINE constexpr FrictionSwing<T> follow_swing(FrictionSwingState<T>& 
     const T reach_N = known_N > T(0) ? T(swing_following) * known_N : half_N;
     state.half_swing_N = limited(half_N, known_N - reach_N, known_N + reach_N);
   }
-  return {starts ? residual_N : T(0.5) * (highest_N + lowest_N) - state.flow_force_N, state.half_swing_N,
-          settled || starts};
+  return {T(0.5) * (highest_N + lowest_N) - state.flow_force_N, state.half_swing_N, settled};
 }
 
 /// By how much the peaks of the force exceed sliding friction where dither moves the spool on in one slip a period: the
