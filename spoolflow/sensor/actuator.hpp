@@ -67,7 +67,7 @@ constexpr void widen_flux_range(ActuatorState<T>& state) {
 template <class T>
 constexpr T unknown_memory_A(const ActuatorParameters<T>& actuator, const ActuatorState<T>& state) {
   const T left = T(1) - (state.highest_flux_Wb - state.lowest_flux_Wb) * actuator.per_wiping_flux;
-  return larger(left, T(0)) * actuator.coercive_current_A;
+  return at_least_zero(left) * actuator.coercive_current_A;
 }
 
 /// Diagnosis of the coil by its voltage, from the same sample as the step before it; a NaN or a coil whose resistance

@@ -131,7 +131,7 @@ SPOOLFLOW_INLINE constexpr T unobserved_Pa(const PressureState<T>& pressure, con
   const bool rises = corrected_Pa > T(0);
   const T room_N =
       rises ? balance.residual_force_N - balance.resting.lower_N : balance.resting.upper_N - balance.residual_force_N;
-  const T room_Pa = T(unobserved_room_share) * pressure_deviation_Pa(balance.edge, larger(room_N, T(0)));
+  const T room_Pa = T(unobserved_room_share) * pressure_deviation_Pa(balance.edge, at_least_zero(room_N));
   const T gone_Pa = smaller(magnitude(corrected_Pa), room_Pa);
   return rises ? gone_Pa : -gone_Pa;
 }
@@ -178,8 +178,8 @@ SPOOLFLOW_INLINE constexpr PressureHalfWidths<T> pressure_half_widths(const Band
     open_N2 += squared(T(constrained_correction_factor) * slope * pressure.constrained_correction_Pa);
     const T bounds_N = band.force_share * balance.noise_N + bounds_deviation_N(band, rest_s);
     const T certain_N = band.coverage_factor * sqrt(squared(bounds_N) + squared(environment_N));
-    const T upper_N = larger(balance.resting.upper_N - balance.residual_force_N, T(0));
-    const T lower_N = larger(balance.residual_force_N - balance.resting.lower_N, T(0));
+    const T upper_N = at_least_zero(balance.resting.upper_N - balance.residual_force_N);
+    const T lower_N = at_least_zero(balance.residual_force_N - balance.resting.lower_N);
     const T per_open_1_N2 = T(1) / open_N2;
     widths.bias_Pa = T(asymmetry_share) * (within_both_Pa(balance.edge, per_open_1_N2, lower_N + certain_N) -
                                            within_both_Pa(balance.edge, per_open_1_N2, upper_N + certain_N));
@@ -210,7 +210,7 @@ SPOOLFLOW_INLINE constexpr PressureBand<T> pressure_band(const PressureState<T>&
                                                          const PressureHalfWidths<T>& widths, T highest_Pa) {
   const T estimate_Pa = pressure.pressure_difference_Pa;
   const T reach = is_capped(pressure, highest_Pa) ? T(capped_pressure_reach) : T(1 + ripple_share);
-  return {larger(estimate_Pa - widths.below_Pa, T(0)), limited(estimate_Pa + widths.bias_Pa, T(0), highest_Pa),
+  return {at_least_zero(estimate_Pa - widths.below_Pa), smaller(at_least_zero(estimate_Pa + widths.bias_Pa), highest_Pa),
           smaller(estimate_Pa + widths.above_Pa, reach * highest_Pa)};
 }
 
@@ -275,7 +275,7 @@ template <class T>
 SPOOLFLOW_INLINE constexpr void answer_flow(const ObserverParameters<T>& valve, const Passage<T>& passage,
                                             const PressureBand<T>& band, Estimate<T>& out) {
   out.pressure_difference_Pa = band.expected_Pa;
-  out.flow_m3_per_s = larger(passage.expected * sqrt(band.expected_Pa), T(0));
+  out.flow_m3_per_s = at_least_zero(passage.expected * sqrt(band.expected_Pa));
   const T backward_Pa = passage.least < T(0) ? band.most_Pa : band.least_Pa;
   band_of_flow(valve, passage.least * sqrt(backward_Pa), passage.most * sqrt(band.most_Pa), out);
 }

@@ -31,7 +31,7 @@ SPOOLFLOW_INLINE constexpr ForceInnovation<T> breakaway_innovation(const Frictio
                                                                    T friction_slope_N_per_Pa) {
   const T aged = ageing(friction, balance.resting.rested_s);
   const T limit_N = breakaway_limit_N(friction, balance);
-  const T expected_N = balance.direction * larger(limit_N - balance.half_swing_N, T(0));
+  const T expected_N = balance.direction * at_least_zero(limit_N - balance.half_swing_N);
   const T loosened_N = balance.dithered ? T(loosened_ageing_share) * (aged - T(1)) * balance.spool_friction_N : T(0);
   return {balance.resting.breakaway_N - expected_N,
           whole_slope_N_per_Pa(balance.edge.flow_force_per_pressure_N_Pa,

@@ -68,7 +68,7 @@ SPOOLFLOW_INLINE constexpr T force_noise_N(const BandParameters<T>& band, const 
 /// for.
 template <class T>
 constexpr FrictionBounds<T> within_swing(const FrictionBounds<T>& bounds, T half_swing_N, T excess_N) {
-  return {larger(bounds.sliding_N + excess_N - half_swing_N, T(0)), larger(bounds.sticking_N - half_swing_N, T(0))};
+  return {at_least_zero(bounds.sliding_N + excess_N - half_swing_N), at_least_zero(bounds.sticking_N - half_swing_N)};
 }
 
 /// What the mass of the slips asks for in each period of dither [N].

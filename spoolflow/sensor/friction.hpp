@@ -166,7 +166,7 @@ SPOOLFLOW_INLINE constexpr void follow_displacement(const FrictionParameters<T>&
     forget_engagement(state, time_step_s);
   }
   // A spool that moves the sensor is at that end of its backlash, and holds no more than the contact bears.
-  const T most_N = larger(contact.sticking_N - contact.half_width_N, T(0));
+  const T most_N = at_least_zero(contact.sticking_N - contact.half_width_N);
   state.presliding_N = limited(state.presliding_N, -most_N, most_N);
 }
 

@@ -114,7 +114,7 @@ SPOOLFLOW_INLINE constexpr auto status(const ObserverParameters<T>& valve, const
   mark(out, !balance.edge.temperature_inside, Status::outside_temperature);
   mark(out, sample.current_A > valve.largest_current_A, Status::current_saturated);
   mark(out, state.actuator.coil_resistance.implausible, Status::coil_fault);
-  mark(out, state.oil.fault_s > T(0), Status::temperature_fault);
+  mark(out, !is_zero(state.oil.fault_s), Status::temperature_fault);
   return out;
 }
 
@@ -139,8 +139,10 @@ SPOOLFLOW_INLINE constexpr void answer(const ObserverParameters<T>& valve, const
                                        const ForceBalance<T>& balance, Estimate<T>& out) {
   const T highest_Pa = valve.highest_pressure_difference_Pa();
   const T conductance = balance.edge.conductance;
-  answer_flow(valve, {conductance, conductance, conductance}, pressure_band(pressure, pressure.half_widths, highest_Pa),
-              out);
+  const PressureBand<T> band = pressure_band(pressure, pressure.half_widths, highest_Pa);
+  out.pressure_difference_Pa = band.expected_Pa;
+  out.flow_m3_per_s = conductance * sqrt(band.expected_Pa);
+  band_of_flow(valve, conductance * sqrt(band.least_Pa), conductance * sqrt(band.most_Pa), out);
   admit_stall(balance, out.pressure_difference_Pa, highest_Pa, out);
   out.magnetic_force_N = balance.actuator.magnetic_force_N;
   out.spring_force_N = balance.spring_N;

@@ -128,7 +128,7 @@ constexpr bool broken(const PressureState<T>& state) {
 template <class T>
 SPOOLFLOW_INLINE constexpr T displaced_ratio(const PressureParameters<T>& pressure, const PressureState<T>& state,
                                              T calibrated_ratio) {
-  return larger(magnitude(state.friction_ratio - calibrated_ratio) - pressure.ratio_deviation, T(0));
+  return at_least_zero(magnitude(state.friction_ratio - calibrated_ratio) - pressure.ratio_deviation);
 }
 
 /// Prediction while no force shows the pressure difference: as restless as the supply has shown itself.
@@ -193,7 +193,7 @@ template <class T>
 constexpr void correct_pressure(const PressureParameters<T>& pressure, PressureState<T>& state,
                                 const KalmanUpdate<T>& update, T highest_Pa) {
   const T corrected_Pa = state.pressure_difference_Pa + update.gain_Pa_per_N * update.innovation_N;
-  state.pressure_difference_Pa = limited(corrected_Pa, T(0), highest_Pa);
+  state.pressure_difference_Pa = smaller(at_least_zero(corrected_Pa), highest_Pa);
   const T breakaway_Pa = update.remaining_share * state.breakaway_Pa;
   state.breakaway_Pa = magnitude(breakaway_Pa) > T(vanishing_breakaway_Pa) ? breakaway_Pa : T(0);
   state.constrained_correction_Pa = T(0);

@@ -127,6 +127,9 @@ constexpr float at_least_zero(float value) {
   return bits_as<float>(bits & ~(bits >> 31));
 }
 /// By the bits without their sign.
+constexpr bool is_zero(float value) {
+  return bits_as<std::uint32_t>(value) << 1U == 0U;
+}
 constexpr bool is_number(float value) {
   return bits_as<std::uint32_t>(value) << 1U < bits_as<std::uint32_t>(0x1p30F) << 1U;
 }

@@ -75,7 +75,7 @@ constexpr bool alike(T one, T other, T margin) {
 template <class T>
 constexpr void turn(DitherState<T>& state, T swing_A, bool regular, T current_A) {
   state.alike =
-      regular ? smaller(state.alike + T(0.5), T(2 * periods_of_dither)) : larger(state.alike - T(unlike_weight), T(0));
+      regular ? smaller(state.alike + T(0.5), T(2 * periods_of_dither)) : at_least_zero(state.alike - T(unlike_weight));
   state.swing_A = swing_A;
   state.turned_A = state.extreme_A;
   state.extreme_A = current_A;
@@ -218,7 +218,7 @@ SPOOLFLOW_INLINE constexpr FrictionSwing<T> follow_swing(FrictionSwingState<T>& 
 /// `slip_m` is the way in one period, less what the contacts give elastically. Leaves out drag within the slip.
 template <class T>
 SPOOLFLOW_INLINE constexpr T slip_excess_N(T moving_mass_kg, T half_swing_N, T slip_m, T period_s) {
-  return T(slip_excess_factor) * sqrt(moving_mass_kg * half_swing_N * larger(slip_m, T(0))) /
+  return T(slip_excess_factor) * sqrt(moving_mass_kg * half_swing_N * at_least_zero(slip_m)) /
          larger(period_s, T(shortest_dither_period_s));
 }
 

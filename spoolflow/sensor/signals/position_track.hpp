@@ -122,7 +122,7 @@ SPOOLFLOW_INLINE constexpr void find_motion(const PositionSensor<T>& sensor, Pos
     }
   }
   if (even) state.travel_m = motion == Motion::opening ? T(direction_only_m) : T(-direction_only_m);
-  state.unsettled_s = even ? T(0) : larger(state.unsettled_s - state.block_s, T(0));
+  state.unsettled_s = even ? T(0) : at_least_zero(state.unsettled_s - state.block_s);
   const bool unsettled = state.unsettled_s > T(0.5) * state.block_s;
   state.motion = even ? motion : unsettled ? Motion::transient : Motion::rest;
 }
