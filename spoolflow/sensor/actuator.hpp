@@ -76,11 +76,11 @@ constexpr T unknown_memory_A(const ActuatorParameters<T>& actuator, const Actuat
 template <class T>
 SPOOLFLOW_INLINE constexpr void follow_coil(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
                                             const Sample<T>& sample, T largest_current_A, const Due<T>& due) {
-  average(state.coil_resistance, {sample.current_A, sample.voltage_V, state.coil.flux_rate_V}, sample.time_step_s);
-  const bool waited = state.coil_resistance.waits_s > due.since_s - T(0.5) * sample.time_step_s;
+  collect(state.coil_resistance, {sample.current_A, sample.voltage_V, state.coil.flux_rate_V}, sample.time_step_s);
+  const bool waited = state.coil_resistance.collected_s > due.since_s - T(0.5) * sample.time_step_s;
   if (due.now && waited && is_number(sample.voltage_V)) {
     const CoilResistance<T>& coil = actuator.coil_resistance;
-    follow_resistance(coil, state.coil_resistance);
+    follow_resistance(coil, state.coil_resistance, take_up(state.coil_resistance));
     judge_answer(coil, state.coil_resistance, T(unanswered_voltage_share) * largest_current_A * coil.resistance_Ohm);
   }
 }

@@ -48,33 +48,45 @@ struct CoilResistanceState {
   T resistance_Ohm{};
   T variance_Ohm2{};
   CoilEquation<T> mean{};
-  T waits_s{};         ///< samples with a voltage since the filter's last step
+  CoilEquation<T> collected{};  ///< its terms times time [A s, V s, Wb] of the samples that the mean has not taken up
+  T collected_s{};              ///< how long these samples are, all with a voltage
   bool implausible{};  ///< known well, and not what copper can have
   bool unanswered{};   ///< there is voltage, and no current to go with it: the current is not measured
 };
 
 static_assert(std::is_trivially_copyable_v<CoilResistanceState<float>>);
 
-/// One sample, `time_step_s` long. The equation is linear: what holds of each sample holds of their mean, if it is
-/// taken of all of them. A voltage that is NaN leaves the mean alone.
+/// One sample, `time_step_s` long. A voltage that is NaN leaves it out.
 template <class T>
-SPOOLFLOW_INLINE constexpr void average(CoilResistanceState<T>& state, const CoilEquation<T>& sample, T time_step_s) {
+SPOOLFLOW_INLINE constexpr void collect(CoilResistanceState<T>& state, const CoilEquation<T>& sample, T time_step_s) {
   if (is_number(sample.voltage_V)) {
-    state.waits_s += time_step_s;
-    const T share = smaller(time_step_s * T(1 / coil_averaging_s), T(1));
-    state.mean.current_A += share * (sample.current_A - state.mean.current_A);
-    state.mean.voltage_V += share * (sample.voltage_V - state.mean.voltage_V);
-    state.mean.flux_rate_V += share * (sample.flux_rate_V - state.mean.flux_rate_V);
+    state.collected_s += time_step_s;
+    state.collected.current_A += time_step_s * sample.current_A;
+    state.collected.voltage_V += time_step_s * sample.voltage_V;
+    state.collected.flux_rate_V += time_step_s * sample.flux_rate_V;
   }
 }
 
-/// One step of the Kalman filter for all samples since its last one: the resistance drifts for as long as they last,
-/// and they are so much evidence and no more, so that it does not matter that the next mean is much alike. Informative
-/// where current flows, whether steady or not; a coil whose resistance was never calibrated leaves the estimate alone.
+/// The mean takes up what was collected; returns how long that lasted [s]. The equation is linear: what holds of each
+/// sample holds of their mean, if it is taken of all of them.
 template <class T>
-constexpr void follow_resistance(const CoilResistance<T>& coil, CoilResistanceState<T>& state) {
-  const T since_s = state.waits_s;
-  state.waits_s = T(0);
+constexpr T take_up(CoilResistanceState<T>& state) {
+  const T since_s = state.collected_s;
+  const T per_time = T(1) / larger(since_s, T(coil_averaging_s));
+  const T left = T(1) - since_s * per_time;
+  state.mean.current_A = left * state.mean.current_A + per_time * state.collected.current_A;
+  state.mean.voltage_V = left * state.mean.voltage_V + per_time * state.collected.voltage_V;
+  state.mean.flux_rate_V = left * state.mean.flux_rate_V + per_time * state.collected.flux_rate_V;
+  state.collected.current_A = state.collected.voltage_V = state.collected.flux_rate_V = state.collected_s = T(0);
+  return since_s;
+}
+
+/// One step of the Kalman filter for all samples since its last one, `since_s` long: the resistance drifts for as long
+/// as they last, and they are so much evidence and no more, so that it does not matter that the next mean is much
+/// alike. Informative where current flows, whether steady or not; a coil whose resistance was never calibrated leaves
+/// the estimate alone.
+template <class T>
+constexpr void follow_resistance(const CoilResistance<T>& coil, CoilResistanceState<T>& state, T since_s) {
   if (coil.resistance_Ohm > T(0) && since_s > T(0)) {
     const CoilEquation<T>& mean = state.mean;
     const bool begins = is_zero(state.variance_Ohm2);

@@ -20,7 +20,7 @@ namespace spoolflow::sensor {
 /// | part                           | due with                                               | since it last ran |
 /// |--------------------------------|--------------------------------------------------------|-------------------|
 /// | friction_memory                | the sample that closes a block                         | a block           |
-/// | coil_diagnosis                 | the first after a block's time that closes none        | a block           |
+/// | coil_diagnosis                 | the first after four blocks' time that closes none     | four blocks       |
 /// | force_uncertainty, slip_excess | odd samples that close none, and a change of sides     | not needed        |
 /// | process_noise, band            | even samples that close none                           | not needed        |
 /// | friction_ratio                 | the even ones of the samples that follow a block       | two blocks        |
@@ -47,7 +47,7 @@ SPOOLFLOW_INLINE constexpr Schedule<T> schedule_of(const PositionBlock<T>& block
   const T two_blocks_s = block.length_s * (block.lone ? T(1) : T(2));
   Schedule<T> out;
   out.friction_memory = {block.closed, block.length_s};
-  out.coil_diagnosis = {!busy, block.length_s};
+  out.coil_diagnosis = {!busy, T(4) * block.length_s};
   out.force_uncertainty = out.slip_excess = odd;
   out.process_noise = out.band = even;
   out.friction_ratio = {even && block.follows, two_blocks_s};

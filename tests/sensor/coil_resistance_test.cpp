@@ -12,14 +12,15 @@ namespace {
 
 using spoolflow::sensor::ActuatorParameters;
 using spoolflow::sensor::ActuatorState;
-using spoolflow::sensor::average;
 using spoolflow::sensor::CoilEquation;
 using spoolflow::sensor::CoilResistance;
 using spoolflow::sensor::CoilResistanceState;
+using spoolflow::sensor::collect;
 using spoolflow::sensor::follow_coil;
 using spoolflow::sensor::follow_resistance;
 using spoolflow::sensor::judge_answer;
 using spoolflow::sensor::Sample;
+using spoolflow::sensor::take_up;
 
 constexpr CoilResistance<double> coil{
     .resistance_Ohm = 10, .uncertainty_Ohm = 2, .drift_Ohm_per_root_s = 0.02, .voltage_noise_V_root_s = 0.01};
@@ -28,8 +29,8 @@ constexpr double sampled_every_s = 1e-3;
 
 /// One sample, in the mean and in the filter.
 void follow(CoilResistanceState<double>& state, const CoilEquation<double>& sample) {
-  average(state, sample, sampled_every_s);
-  follow_resistance(coil, state);
+  collect(state, sample, sampled_every_s);
+  follow_resistance(coil, state, take_up(state));
 }
 
 /// Ten seconds at 1 ms and 0.8 A of a coil that has `resistance_Ohm`.
@@ -72,8 +73,8 @@ TEST(CoilResistance, IsFollowedUnderStrongDitherWhoseFluxRateIsUncertain) {
       const double angle = 2 * std::numbers::pi * (0.2 * n + phase);
       const double current_A = 0.8 + 0.25 * std::sin(angle);
       const double flux_rate_V = 12 * std::cos(angle);
-      average(state, {current_A, 10 * current_A + flux_rate_V, 0.7 * flux_rate_V}, sampled_every_s);
-      if (n % 5 == 0) follow_resistance(coil, state);
+      collect(state, {current_A, 10 * current_A + flux_rate_V, 0.7 * flux_rate_V}, sampled_every_s);
+      if (n % 5 == 0) follow_resistance(coil, state, take_up(state));
     }
     EXPECT_FALSE(state.implausible) << phase;
     EXPECT_NEAR(state.resistance_Ohm, 10, 0.5) << phase;
@@ -85,7 +86,8 @@ TEST(CoilResistance, WithoutCurrentOrVoltageNothingIsSaid) {
   CoilResistanceState<double> state;
   follow(state, {0.8, 8.0, 0.0});
   const double voltage_V = state.mean.voltage_V;
-  for (int n = 0; n < 10000; ++n) average(state, {0.8, std::numeric_limits<double>::quiet_NaN(), 0.0}, sampled_every_s);
+  for (int n = 0; n < 10000; ++n) collect(state, {0.8, std::numeric_limits<double>::quiet_NaN(), 0.0}, sampled_every_s);
+  take_up(state);
   EXPECT_FALSE(state.implausible);
   EXPECT_EQ(state.mean.voltage_V, voltage_V);
 }
@@ -93,7 +95,8 @@ TEST(CoilResistance, WithoutCurrentOrVoltageNothingIsSaid) {
 /// Whether no current answers the voltage, `after_s` after the current's instrument broke; 0.4 V are quiet.
 bool unanswered(double after_s) {
   CoilResistanceState<double> state = followed(10);
-  for (int n = 0; n < std::lround(after_s / sampled_every_s); ++n) average(state, {0, 8, 0}, sampled_every_s);
+  for (int n = 0; n < std::lround(after_s / sampled_every_s); ++n) collect(state, {0, 8, 0}, sampled_every_s);
+  take_up(state);
   judge_answer(coil, state, 0.4);
   return state.unanswered;
 }
@@ -106,10 +109,12 @@ TEST(CoilResistance, AVoltageThatNoCurrentAnswersIsAFaultWithinFiveHundredthsOfA
 
 TEST(CoilResistance, AVoltageThatAFluxAnswersIsNoFault) {
   CoilResistanceState<double> state;
-  average(state, {0, 24, 18}, 1.0);  // in one step all of the mean; a third of the flux rate may be wrong
+  collect(state, {0, 24, 18}, 1.0);  // in one step all of the mean; a third of the flux rate may be wrong
+  take_up(state);
   judge_answer(coil, state, 0.4);
   EXPECT_FALSE(state.unanswered);
-  average(state, {0, 24, 6}, 1.0);
+  collect(state, {0, 24, 6}, 1.0);
+  take_up(state);
   judge_answer(coil, state, 0.4);
   EXPECT_TRUE(state.unanswered);
 }
