@@ -30,12 +30,10 @@ struct EdgePoint {
 /// steady flow force is in proportion to it (paper (2) with the orifice equation), friction goes on linearly (paper
 /// section 2.1.3), and the conductance stays.
 template <class T>
-SPOOLFLOW_NOINLINE constexpr EdgePoint<T> continued_beyond(EdgePoint<T> point, T pressure_difference_Pa,
-                                                           T measured_Pa) {
+SPOOLFLOW_INLINE constexpr void continue_beyond(EdgePoint<T>& point, T pressure_difference_Pa, T measured_Pa) {
   point.flow_force_per_pressure_N_Pa = larger(point.flow_force_N / measured_Pa, T(least_force_per_pressure_N_Pa));
   point.flow_force_N *= pressure_difference_Pa / measured_Pa;
   point.friction_N += larger(point.friction_per_pressure_N_Pa, T(0)) * (pressure_difference_Pa - measured_Pa);
-  return point;
 }
 
 /// Steady flow force (paper (2), terms 1 and 2), spool friction and flow over oil temperature [K] (layers), pressure
@@ -79,7 +77,7 @@ struct MeteringEdge {
                        row.inside && column.inside,
                        layer.inside};
     if (unlikely(is_beyond(pressure_difference)))
-      return continued_beyond(point, pressure_difference, highest_pressure_difference_Pa());
+      continue_beyond(point, pressure_difference, highest_pressure_difference_Pa());
     return point;
   }
   [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(T temperature, T pressure_difference, T position) const {

@@ -76,17 +76,17 @@ constexpr QuietCoil<T> quiet_coil(const ObserverParameters<T>& valve) {
           T(quiet_voltage_share) * valve.largest_current_A * valve.actuator.coil_resistance.resistance_Ohm};
 }
 
-/// The sample, or, in `held`, with the last credible current where its own leapt.
+/// The sample, or that with the last credible current where its own leapt.
 template <class T>
 SPOOLFLOW_INLINE constexpr const Sample<T>& credible(const ObserverParameters<T>& valve, ObserverState<T>& state,
-                                                     const Sample<T>& measured, Sample<T>& held) {
+                                                     const Sample<T>& measured) {
   const T last_A = state.position.current_A;
   const bool holds =
       is_held(valve.current_limits, {last_A, measured.current_A}, measured.time_step_s, state.held_currents);
   state.held_currents = held_in_a_row(state.held_currents, holds);
   if (likely(!holds)) return measured;
-  held = with_current(measured, last_A);
-  return held;
+  state.held = with_current(measured, last_A);
+  return state.held;
 }
 
 /// The actuator's part of a sample, at the position that is free of drift and faults.
@@ -287,8 +287,7 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
       return state.last;
     }
   }
-  Sample<T> held;
-  const Sample<T>& sample = begins ? measured : detail::credible(valve, state, measured, held);
+  const Sample<T>& sample = begins ? measured : detail::credible(valve, state, measured);
   if (begins) detail::begin(valve, state, sample);
   const Dither<T> dither = follow_dither(state.dither, sample.current_A, valve.largest_current_A, sample.time_step_s);
   const PositionPoint<T> position = track(valve.position_sensor, state.position, sample, detail::quiet_coil(valve),

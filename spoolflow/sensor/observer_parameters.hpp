@@ -97,6 +97,7 @@ struct ObserverState {
   OilState<T> oil;
   ForceErrors<T> force_errors;
   int held_currents{};  ///< samples in a row whose current was implausible and replaced
+  Sample<T> held{};     ///< the last of them, with the current that stood in
   bool started{};       ///< a sample came in
   Estimate<T> last{};
 };
