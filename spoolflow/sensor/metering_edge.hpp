@@ -30,10 +30,11 @@ struct EdgePoint {
 /// steady flow force is in proportion to it (paper (2) with the orifice equation), friction goes on linearly (paper
 /// section 2.1.3), and the conductance stays.
 template <class T>
-SPOOLFLOW_INLINE constexpr void continue_beyond(EdgePoint<T>& point, T pressure_difference_Pa, T measured_Pa) {
-  point.flow_force_per_pressure_N_Pa = larger(point.flow_force_N / measured_Pa, T(least_force_per_pressure_N_Pa));
-  point.flow_force_N *= pressure_difference_Pa / measured_Pa;
-  point.friction_N += larger(point.friction_per_pressure_N_Pa, T(0)) * (pressure_difference_Pa - measured_Pa);
+SPOOLFLOW_INLINE constexpr void continue_beyond(VolumePoint<T>& flow_force, VolumePoint<T>& friction,
+                                                T pressure_difference_Pa, T measured_Pa) {
+  flow_force.row_slope = flow_force.value / measured_Pa;
+  flow_force.value *= pressure_difference_Pa / measured_Pa;
+  friction.value += at_least_zero(friction.row_slope) * (pressure_difference_Pa - measured_Pa);
 }
 
 /// Steady flow force (paper (2), terms 1 and 2), spool friction and flow over oil temperature [K] (layers), pressure
@@ -67,18 +68,16 @@ struct MeteringEdge {
     const Cell<T> row = locate<edge_pressures>(pressure_difference_Pa, pressure_difference);
     const Cell<T> column = locate<edge_positions>(position_m, position);
     const VolumeCell<T> cell = volume_cell(layer, row, column, pressure_difference_Pa.per_spacing);
-    const VolumePoint<T> force = flow_force_N.at(cell);
-    const VolumePoint<T> friction = friction_N.at(cell);
-    EdgePoint<T> point{force.value,
-                       larger(force.row_slope, T(least_force_per_pressure_N_Pa)),
-                       friction.value,
-                       friction.row_slope,
-                       conductance.at(cell).value,
-                       row.inside && column.inside,
-                       layer.inside};
+    VolumePoint<T> force = flow_force_N.at(cell), friction = friction_N.at(cell);
     if (unlikely(is_beyond(pressure_difference)))
-      continue_beyond(point, pressure_difference, highest_pressure_difference_Pa());
-    return point;
+      continue_beyond(force, friction, pressure_difference, highest_pressure_difference_Pa());
+    return {force.value,
+            larger(force.row_slope, T(least_force_per_pressure_N_Pa)),
+            friction.value,
+            friction.row_slope,
+            conductance.at(cell).value,
+            row.inside && column.inside,
+            layer.inside};
   }
   [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(T temperature, T pressure_difference, T position) const {
     return at(layer_at(temperature), pressure_difference, position);
