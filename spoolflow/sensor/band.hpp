@@ -209,9 +209,19 @@ template <class T>
 SPOOLFLOW_INLINE constexpr PressureBand<T> pressure_band(const PressureState<T>& pressure,
                                                          const PressureHalfWidths<T>& widths, T highest_Pa) {
   const T estimate_Pa = pressure.pressure_difference_Pa;
-  const T reach = is_capped(pressure, highest_Pa) ? T(capped_pressure_reach) : T(1 + ripple_share);
+  const T usual_Pa = T(1 + ripple_share) * highest_Pa;
+  T most_Pa = estimate_Pa + widths.above_Pa;
+  if (most_Pa > usual_Pa)
+    most_Pa = is_capped(pressure, highest_Pa) ? smaller(most_Pa, T(capped_pressure_reach) * highest_Pa) : usual_Pa;
   return {at_least_zero(estimate_Pa - widths.below_Pa), smaller(at_least_zero(estimate_Pa + widths.bias_Pa), highest_Pa),
-          smaller(estimate_Pa + widths.above_Pa, reach * highest_Pa)};
+          most_Pa};
+}
+
+/// Variance of the flow rate that the machine around the valve leaves open beside the pressure difference [m6/s2].
+template <class T>
+SPOOLFLOW_INLINE constexpr T environment_variance(const Environment<T>& environment, T flow_m3_per_s) {
+  if (is_zero(environment.flow_share) && is_zero(environment.leakage_m3_per_s)) return T(0);
+  return squared(environment.flow_share * flow_m3_per_s) + squared(environment.leakage_m3_per_s);
 }
 
 /// The band of the flow rate [m3/s]: what the pressure difference leaves open of it, from `least` to `most`, and the
@@ -223,8 +233,7 @@ SPOOLFLOW_INLINE constexpr void band_of_flow(const ObserverParameters<T>& valve,
   out.flow_lower_m3_per_s = least_m3_per_s;
   out.flow_upper_m3_per_s = most_m3_per_s;
   widen_band(out, squared(T(flow_residual_factor) * band.flow_residual_m3_per_s) +
-                      squared(band.coverage_factor) * (squared(valve.environment.flow_share * out.flow_m3_per_s) +
-                                                       squared(valve.environment.leakage_m3_per_s)));
+                      squared(band.coverage_factor) * environment_variance(valve.environment, out.flow_m3_per_s));
 }
 
 /// A stalled actuator: the cylinder stands at its end or a load holds it, nothing flows through an open valve, and no
@@ -242,7 +251,7 @@ inline constexpr double least_likelihood = 0.05;
 template <class T>
 constexpr void admit_stall(const ForceBalance<T>& balance, T pressure_difference_Pa, T highest_Pa, Estimate<T>& out) {
   const T stalled_Pa = T(stalled_pressure_share) * highest_Pa;
-  if (balance.closed || !(pressure_difference_Pa < T(stalled_pressure_reach) * stalled_Pa)) return;
+  if (!(pressure_difference_Pa < T(stalled_pressure_reach) * stalled_Pa) || balance.closed) return;
   const T stalled_N = T(stalled_friction_share) * (balance.spool_friction_N + balance.armature_friction_N);
   const T size2 = squared(pressure_difference_Pa / stalled_Pa) + squared(balance.edge.flow_force_N / stalled_N);
   const T stalled = T(1) / (T(1) + squared(size2));

@@ -194,7 +194,7 @@ SPOOLFLOW_INLINE constexpr void update_pressure(const ObserverParameters<T>& val
   const T prior_Pa = pressure.pressure_difference_Pa;
   const T to_friction_N =
       update(valve, pressure, balance, {schedule.friction_ratio, schedule.process_noise, time_step_s});
-  correct_friction(state.friction, balance, to_friction_N);
+  if (!is_zero(to_friction_N)) correct_friction(state.friction, balance, to_friction_N);
   if (balance.dithered) {
     state.swing.flow_force_N +=
         balance.edge.flow_force_per_pressure_N_Pa * (pressure.pressure_difference_Pa - prior_Pa);

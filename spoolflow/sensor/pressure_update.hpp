@@ -24,7 +24,6 @@ namespace detail {
 template <class T>
 SPOOLFLOW_INLINE constexpr void predict(const ObserverParameters<T>& valve, PressureState<T>& pressure,
                                         const ForceBalance<T>& balance, const PressureTiming<T>& timing, T highest_Pa) {
-  if (balance.closed) expect_change(valve.pressure, pressure);
   if (balance.sliding) drift(valve.pressure, pressure, timing.time_step_s, highest_Pa);
   if (balance.sliding && timing.friction_ratio.now)
     forget_ratio(valve.pressure, pressure, valve.friction.operation_ratio, timing.friction_ratio.since_s);
@@ -51,7 +50,9 @@ SPOOLFLOW_INLINE constexpr T update(const ObserverParameters<T>& valve, Pressure
   detail::predict(valve, pressure, balance, timing, highest_Pa);
 
   T to_friction_N{};
-  if (balance.settled && !balance.closed && balance.sliding) {
+  if (balance.closed) {
+    expect_change(valve.pressure, pressure);
+  } else if (balance.settled && balance.sliding) {
     if (timing.time_step_s > T(0))
       update_sliding(valve.pressure, pressure, sliding_innovation(balance, friction_slope), timing.time_step_s,
                      highest_Pa);
