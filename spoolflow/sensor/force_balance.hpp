@@ -46,7 +46,7 @@ struct ForceBalance {
   T friction_N;                 ///< estimated
   T half_swing_N;               ///< of friction under dither, >= 0; all friction here is that of its middle
   T noise_N;                    ///< one standard deviation of all forces together
-  T direction;                  ///< 1 opening, -1 closing: of the motion or of the last
+  T direction;                  ///< 1 opening, -1 closing; 0 at rest and where dither frees the spool
   bool dithered;
   bool freed;    ///< by dither, both ways in each period
   bool settled;  ///< a whole period of dither, or a sample without dither, is there to measure by
@@ -125,10 +125,10 @@ SPOOLFLOW_INLINE constexpr ForceBalance<T> balance_forces(const ObserverParamete
                      out.dithered, timing.memory, timing.time_step_s);
 
   out.closed = position.position_m < valve.closed_below_m;
-  const bool travels = position.motion == Motion::opening || position.motion == Motion::closing;
+  const bool travels = slides(position.motion);
   out.sliding = travels || out.freed;
   out.slips = position.motion == Motion::transient && !out.freed;
-  out.direction = travels || !out.freed ? (position.travel_m > T(0) ? T(1) : T(-1)) : T(0);
+  out.direction = travels || out.slips ? (position.travel_m > T(0) ? T(1) : T(-1)) : T(0);
   out.friction_N = out.sliding ? out.direction * out.bounds.sliding_N
                                : limited(out.residual_force_N, out.resting.lower_N, out.resting.upper_N);
   // Paper (1): the mass takes a part of the force; position shows it late, so that it is no surer than its size.

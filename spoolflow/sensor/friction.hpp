@@ -175,7 +175,7 @@ template <class T>
 SPOOLFLOW_INLINE constexpr void follow_motion(FrictionState<T>& state, const Contact<T>& contact, T sliding_N,
                                               const PositionPoint<T>& position) {
   const T direction = position.travel_m > T(0) ? T(1) : T(-1);
-  const bool sliding = position.motion != Motion::transient;
+  const bool sliding = slides(position.motion);
   const T friction_N =
       (sliding ? direction * sliding_N : limited(contact.residual_N, -contact.holds_N, contact.holds_N));
   state.presliding_N = sliding ? friction_N - direction * contact.half_width_N : friction_N;
@@ -224,11 +224,11 @@ SPOOLFLOW_INLINE constexpr FrictionInterval<T> step(const FrictionParameters<T>&
   }
   if (memory.now) detail::hold(state, residual_N, memory.since_s);
   FrictionInterval<T> out{-bounds.sticking_N, bounds.sticking_N, breakaway_N, rested_s};
-  if (creeps) return out;
+  if (creeps || slides(position.motion)) return out;
   // Friction lies on the side of the estimate to which the backlash engages.
   const T engaged_N = T(engagement_certainty) * half_width_N * state.engagement;
-  const T below_N = half_width_N - at_least_zero(engaged_N);
-  const T above_N = half_width_N - at_least_zero(-engaged_N);
+  const T below_N = engaged_N > T(0) ? half_width_N - engaged_N : half_width_N;
+  const T above_N = engaged_N > T(0) ? half_width_N : half_width_N + engaged_N;
   out.lower_N = larger(state.presliding_N - below_N, -holds_N);
   out.upper_N = smaller(state.presliding_N + above_N, holds_N);
   return out;

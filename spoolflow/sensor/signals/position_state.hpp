@@ -72,6 +72,10 @@ enum class Motion : std::uint8_t {
   closing,
 };
 
+constexpr bool slides(Motion motion) {
+  return motion == Motion::opening || motion == Motion::closing;
+}
+
 inline constexpr int position_blocks = 32;  ///< of means over four blocks, for the long windows
 inline constexpr int short_blocks = 8;      ///< of means over one, for the short ones
 
