@@ -131,8 +131,7 @@ SPOOLFLOW_INLINE constexpr ActuatorEstimate<T> step(const ActuatorParameters<T>&
     force_N += beyond_N;
     if (judged) state.uncertainty_N += T(saturation_share) * beyond_N;
   }
-  return {force_N,                state.uncertainty_N, state.friction_half_width_N,
-          force.row_slope,        force.column_slope,  force.inside};
+  return {force_N, state.uncertainty_N, state.friction_half_width_N, force.row_slope, force.column_slope, force.inside};
 }
 
 }  // namespace spoolflow::sensor

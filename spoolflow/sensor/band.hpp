@@ -213,8 +213,8 @@ SPOOLFLOW_INLINE constexpr PressureBand<T> pressure_band(const PressureState<T>&
   T most_Pa = estimate_Pa + widths.above_Pa;
   if (most_Pa > usual_Pa)
     most_Pa = is_capped(pressure, highest_Pa) ? smaller(most_Pa, T(capped_pressure_reach) * highest_Pa) : usual_Pa;
-  return {at_least_zero(estimate_Pa - widths.below_Pa), smaller(at_least_zero(estimate_Pa + widths.bias_Pa), highest_Pa),
-          most_Pa};
+  return {at_least_zero(estimate_Pa - widths.below_Pa),
+          smaller(at_least_zero(estimate_Pa + widths.bias_Pa), highest_Pa), most_Pa};
 }
 
 /// Variance of the flow rate that the machine around the valve leaves open beside the pressure difference [m6/s2].

@@ -50,8 +50,8 @@ struct CoilResistanceState {
   CoilEquation<T> mean{};
   CoilEquation<T> collected{};  ///< its terms times time [A s, V s, Wb] of the samples that the mean has not taken up
   T collected_s{};              ///< how long these samples are, all with a voltage
-  bool implausible{};  ///< known well, and not what copper can have
-  bool unanswered{};   ///< there is voltage, and no current to go with it: the current is not measured
+  bool implausible{};           ///< known well, and not what copper can have
+  bool unanswered{};            ///< there is voltage, and no current to go with it: the current is not measured
 };
 
 static_assert(std::is_trivially_copyable_v<CoilResistanceState<float>>);

@@ -157,8 +157,7 @@ SPOOLFLOW_INLINE constexpr void follow_displacement(const FrictionParameters<T>&
   const T averaged_s = smaller(larger(state.rest_s, T(least_rest_s)), T(presliding_smoothing_s) + time_step_s);
   state.smooth_m += time_step_s / averaged_s * (position_m - state.smooth_m);
   const T before_m = state.followed_m;
-  state.followed_m =
-      limited(before_m, state.smooth_m - contact.deadband_m, state.smooth_m + contact.deadband_m);
+  state.followed_m = limited(before_m, state.smooth_m - contact.deadband_m, state.smooth_m + contact.deadband_m);
   const T moved_m = state.followed_m - before_m;
   if (!is_zero(moved_m)) {
     displace(friction, state, contact, moved_m);
