@@ -114,8 +114,10 @@ SPOOLFLOW_INLINE constexpr HysteresisPoint<T> answer_of_stops(const MagneticHyst
 template <bool Rising, unsigned K, class T>
 SPOOLFLOW_INLINE constexpr void move_stops(const MagneticHysteresis<T>& hysteresis, HysteresisState<T>& state, T flux) {
   if constexpr (K < hysteresis_elements) {
-    if (!lies_below(hysteresis.threshold[K], elastic<Rising>(state.centre[K], flux))) return;
-    state.centre[K] = Rising ? flux - hysteresis.threshold[K] : flux + hysteresis.threshold[K];
+    const T yielded = Rising ? flux - hysteresis.threshold[K] : flux + hysteresis.threshold[K];
+    const bool yields = Rising ? yielded > state.centre[K] : yielded < state.centre[K];
+    if (!yields) return;
+    state.centre[K] = yielded;
     move_stops<Rising, K + 1>(hysteresis, state, flux);
   }
 }
