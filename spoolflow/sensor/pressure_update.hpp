@@ -24,17 +24,11 @@ namespace detail {
 template <class T>
 SPOOLFLOW_INLINE constexpr void predict(const ObserverParameters<T>& valve, PressureState<T>& pressure,
                                         const ForceBalance<T>& balance, const PressureTiming<T>& timing, T highest_Pa) {
+  if (balance.closed) expect_change(valve.pressure, pressure);
   if (balance.sliding) drift(valve.pressure, pressure, timing.time_step_s, highest_Pa);
   if (balance.sliding && timing.friction_ratio.now)
     forget_ratio(valve.pressure, pressure, valve.friction.operation_ratio, timing.friction_ratio.since_s);
   if (!balance.sliding) drift_unobserved(valve.pressure, pressure, timing.time_step_s, highest_Pa);
-}
-
-/// Where rounding has broken the estimate, it begins again.
-template <class T>
-SPOOLFLOW_INLINE constexpr void mend(const ObserverParameters<T>& valve, PressureState<T>& pressure, T highest_Pa) {
-  if (unlikely(broken(pressure)))
-    begin(valve.pressure, pressure, highest_Pa, valve.friction.operation_ratio, valve.band.unobserved_factor);
 }
 
 }  // namespace detail
@@ -50,25 +44,23 @@ SPOOLFLOW_INLINE constexpr T update(const ObserverParameters<T>& valve, Pressure
   detail::predict(valve, pressure, balance, timing, highest_Pa);
 
   T to_friction_N{};
-  if (balance.closed) {
-    expect_change(valve.pressure, pressure);
-  } else if (balance.settled && balance.sliding) {
+  if (balance.settled && !balance.closed && balance.sliding) {
     if (timing.time_step_s > T(0))
       update_sliding(valve.pressure, pressure, sliding_innovation(balance, friction_slope), timing.time_step_s,
                      highest_Pa);
-    detail::mend(valve, pressure, highest_Pa);
     if (timing.process_noise) follow_process_noise(valve.pressure, pressure, slope, balance.noise_N);
   } else if (breaks_away(balance, timing.time_step_s)) {
     const T common_N = balance.direction * valve.friction.breakaway_share * breakaway_limit_N(valve.friction, balance);
     update_breakaway(valve.pressure, pressure, breakaway_innovation(valve.friction, balance, friction_slope), common_N,
                      highest_Pa);
-    detail::mend(valve, pressure, highest_Pa);
   } else if (const T beyond_N = beyond_bounds_N(balance); !is_zero(beyond_N)) {
     // Friction that holds more than calibrated looks alike: alone it leads to no pressure difference beyond that.
     const T most_Pa = larger(pressure.pressure_difference_Pa, valve.edge.highest_pressure_difference_Pa());
     to_friction_N = correct_constrained(valve.pressure, pressure, {beyond_N, slope, T(0), valve.friction.tolerance_N},
                                         timing.time_step_s, most_Pa);
   }
+  if (unlikely(broken(pressure)))
+    begin(valve.pressure, pressure, highest_Pa, valve.friction.operation_ratio, valve.band.unobserved_factor);
   return to_friction_N;
 }
 
