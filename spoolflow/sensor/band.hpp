@@ -44,10 +44,20 @@ struct OperatingPoint {
   T breakaway_Pa;  ///< what break-away forces may have the pressure difference off by
 };
 
+/// What of a balance tells how much an error of the environment means.
+template <class T>
+struct EnvironmentEffects {
+  EdgePoint<T> edge;
+  T force_per_position_N_per_m;  ///< of the magnetic force
+  T force_per_current_N_per_A;
+  T sliding_N;   ///< friction while the spool slides, with what dither takes off
+  T friction_N;  ///< the same without dither
+};
+
 /// What the environment leaves open of the force that the pressure difference is estimated from [N], one standard
 /// deviation. What a position error does to force and conductance belongs together: the one takes off the other.
 template <class T>
-SPOOLFLOW_NOINLINE constexpr T environment_N(const ObserverParameters<T>& valve, const ForceBalance<T>& balance,
+SPOOLFLOW_NOINLINE constexpr T environment_N(const ObserverParameters<T>& valve, const EnvironmentEffects<T>& effects,
                                              const OperatingPoint<T>& at) {
   const Environment<T>& environment = valve.environment;
   const MeteringEdge<T>& edge = valve.edge;
@@ -56,15 +66,15 @@ SPOOLFLOW_NOINLINE constexpr T environment_N(const ObserverParameters<T>& valve,
   const T least = larger(T(least_conductance_share) * widest, T(vanishing_conductance));
   const T off_m = sqrt(squared(environment.position_m) + squared(environment.position_share * position_m));
   const EdgePoint<T> there = edge.at(at.oil_temperature_K, pressure_Pa, position_m + off_m);
-  const T stiffness_N_per_m = valve.spring.at(position_m).slope - balance.actuator.force_per_position_N_per_m;
-  const T moved_N = edge_effect_N(balance.edge, there, pressure_Pa, least) - stiffness_N_per_m * off_m;
+  const T stiffness_N_per_m = valve.spring.at(position_m).slope - effects.force_per_position_N_per_m;
+  const T moved_N = edge_effect_N(effects.edge, there, pressure_Pa, least) - stiffness_N_per_m * off_m;
   const EdgePoint<T> warmer = edge.at(at.oil_temperature_K + environment.oil_temperature_K, pressure_Pa, position_m);
-  const T warmer_N = edge_effect_N(balance.edge, warmer, pressure_Pa, least);
-  const T current_N = environment.current_share * at.current_A * balance.actuator.force_per_current_N_per_A;
-  const T ripple_N = balance.edge.flow_force_per_pressure_N_Pa * environment.ripple_Pa;
-  const T freed_N = smaller(ripple_N, balance.bounds.sliding_N);
-  const T friction_N = environment.friction_share * (balance.spool_friction_N + balance.armature_friction_N);
-  const T breakaway_N = balance.edge.flow_force_per_pressure_N_Pa * at.breakaway_Pa;
+  const T warmer_N = edge_effect_N(effects.edge, warmer, pressure_Pa, least);
+  const T current_N = environment.current_share * at.current_A * effects.force_per_current_N_per_A;
+  const T ripple_N = effects.edge.flow_force_per_pressure_N_Pa * environment.ripple_Pa;
+  const T freed_N = smaller(ripple_N, effects.sliding_N);
+  const T friction_N = environment.friction_share * effects.friction_N;
+  const T breakaway_N = effects.edge.flow_force_per_pressure_N_Pa * at.breakaway_Pa;
   const T all_N = sqrt(squared(environment.force_N) + squared(current_N) + squared(moved_N) + squared(warmer_N) +
                        squared(ripple_N) + squared(freed_N) + squared(friction_N) + squared(breakaway_N));
   return smaller(all_N, T(most_environment_N));

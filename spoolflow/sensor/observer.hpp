@@ -125,9 +125,13 @@ SPOOLFLOW_INLINE constexpr void follow_half_widths(const ObserverParameters<T>& 
                                                    T current_A) {
   PressureState<T>& pressure = state.pressure;
   if (!is_bench(valve.environment))
-    state.force_errors.environment_N = environment_N(valve, balance,
-                                                     {state.oil.temperature_K, pressure.pressure_difference_Pa,
-                                                      position.position_m, current_A, pressure.breakaway_Pa});
+    state.force_errors.environment_N =
+        environment_N(valve,
+                      EnvironmentEffects<T>{balance.edge, balance.actuator.force_per_position_N_per_m,
+                                            balance.actuator.force_per_current_N_per_A, balance.bounds.sliding_N,
+                                            balance.spool_friction_N + balance.armature_friction_N},
+                      {state.oil.temperature_K, pressure.pressure_difference_Pa, position.position_m, current_A,
+                       pressure.breakaway_Pa});
   pressure.half_widths = pressure_half_widths(
       valve.band, pressure, balance, state.friction.rest_s, position.velocity_m_per_s,
       displaced_ratio(valve.pressure, pressure, valve.friction.operation_ratio), state.force_errors.environment_N);
