@@ -142,7 +142,7 @@ template <class T>
 SPOOLFLOW_INLINE constexpr void answer(const ObserverParameters<T>& valve, const PressureState<T>& pressure,
                                        const ForceBalance<T>& balance, Estimate<T>& out) {
   const T highest_Pa = valve.highest_pressure_difference_Pa();
-  const T conductance = balance.edge.conductance;
+  const T conductance = at_least_zero(balance.edge.conductance);
   const PressureBand<T> band = pressure_band(pressure, pressure.half_widths, highest_Pa);
   out.pressure_difference_Pa = band.expected_Pa;
   out.flow_m3_per_s = conductance * sqrt(band.expected_Pa);
