@@ -76,7 +76,10 @@ AxialForceMaps ReadCampaign::axial_force_maps(const std::string& direction) cons
   }
   if (const EquivalentBenches* equivalent = flow_bench(direction)) {
     if (has_inferred_actuator(direction)) out.joined.clear();
-    for (const recording::Recording& map : equivalent->axial_force_maps) out.joined.push_back(&map);
+    const bool apart = !equivalent->outlet_force_maps.empty();
+    for (const recording::Recording& map : equivalent->axial_force_maps)
+      (apart ? out.inlet : out.joined).push_back(&map);
+    for (const recording::Recording& map : equivalent->outlet_force_maps) out.outlet.push_back(&map);
   }
   const double area_ratio = campaign_.load.area_ratio;  // what B takes leaves A in this proportion
   out.outlet_flow_ratio = direction == "a" ? 1 / area_ratio : area_ratio;
@@ -97,8 +100,13 @@ const EquivalentBenches* ReadCampaign::flow_bench(const std::string& direction) 
 }
 
 FlowBenchRecordings ReadCampaign::on_flow_bench(const std::string& direction) const {
-  return {of(Protocol::unpressurised_strokes, direction), of(Protocol::metering, direction),
-          of(Protocol::operation, direction)};
+  FlowBenchRecordings out{of(Protocol::unpressurised_strokes, direction), {}, of(Protocol::operation, direction)};
+  for (const Loaded& loaded : loaded_) {
+    if (loaded.entry.protocol != Protocol::metering || loaded.entry.direction != direction) continue;
+    const bool outlet = loaded.entry.edge == recording::edges_of(direction).outlet;
+    (outlet ? out.metering_outlet : out.metering).push_back(&loaded.recording);
+  }
+  return out;
 }
 
 void ReadCampaign::infer_benches(const std::string& direction) {

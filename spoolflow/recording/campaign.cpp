@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -125,15 +126,15 @@ CampaignLoad load_of(const TomlTable& table) {
   return {ratio};
 }
 
-/// The edge that an axial-force map is of, empty where it is of all that the oil passes; `direction` becomes the
-/// edge's.
+/// The edge that an axial-force map or a flow bench's strokes are of, empty where it is of all that the oil passes;
+/// `direction` becomes the edge's.
 std::string edge_of(const TomlTable& entry, Protocol protocol, std::string& direction) {
   const std::optional<std::string> edge = entry.optional_text("edge");
   if (!edge) return {};
-  if (protocol != Protocol::axial_force_map) {
+  if (protocol != Protocol::axial_force_map && protocol != Protocol::metering) {
     throw RecordingError(
-        fmt::format("{}: edge = \"{}\" stands with protocol \"{}\"; only axial_force_map is measured "
-                    "one edge at a time: leave edge out",
+        fmt::format("{}: edge = \"{}\" stands with protocol \"{}\"; only axial_force_map and "
+                    "metering are measured one edge at a time: leave edge out",
                     entry.place("edge"), *edge, name(protocol)));
   }
   for (const char* each : {"b", "a"}) {
@@ -195,7 +196,8 @@ CampaignRecording recording_of(const TomlTable& entry, const CampaignValve& valv
 
 /// Each direction's axial force is of both edges together, or of each of them.
 void require_whole_paths(const Campaign& campaign) {
-  const std::vector<const CampaignRecording*> maps = campaign.of(Protocol::axial_force_map);
+  std::vector<const CampaignRecording*> maps = campaign.of(Protocol::axial_force_map);
+  std::ranges::copy(campaign.of(Protocol::metering), std::back_inserter(maps));
   for (const CampaignRecording* one : maps) {
     if (one->edge.empty()) continue;
     const auto [inlet, outlet] = edges_of(one->direction);
@@ -209,15 +211,21 @@ void require_whole_paths(const Campaign& campaign) {
             each->place, each->file.filename().string(), one->file.filename().string(), one->edge, one->direction,
             inlet, outlet));
       }
+      if (each->protocol != one->protocol) {
+        throw RecordingError(fmt::format(
+            "{}: {} is of protocol \"{}\" and {} of \"{}\", both of one edge of direction \"{}\"; edges are measured "
+            "one at a time by one of the two: leave the other out",
+            each->place, each->file.filename().string(), name(each->protocol), one->file.filename().string(),
+            name(one->protocol), one->direction));
+      }
       other_edge = other_edge || each->edge != one->edge;
     }
     if (!other_edge) {
-      throw RecordingError(
-          fmt::format("{}: of direction \"{}\" edge {} alone was measured, and the oil also passes {}; add "
-                      "axial_force_map recordings "
-                      "with edge = \"{}\", or leave edge out where the files are of all that the oil passes",
-                      one->place, one->direction, one->edge, one->edge == inlet ? outlet : inlet,
-                      one->edge == inlet ? outlet : inlet));
+      throw RecordingError(fmt::format(
+          "{}: of direction \"{}\" edge {} alone was measured, and the oil also passes {}; add "
+          "{} recordings with edge = \"{}\", or leave edge out where the files are of all that the oil passes",
+          one->place, one->direction, one->edge, one->edge == inlet ? outlet : inlet, name(one->protocol),
+          one->edge == inlet ? outlet : inlet));
     }
   }
 }

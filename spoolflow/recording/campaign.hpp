@@ -73,8 +73,8 @@ struct CampaignRecording {
   ChannelMap channels;
   std::string place;            ///< "campaign.toml, line 17", for messages
   std::string direction = "b";  ///< of a file of one direction, whose position counts from the centre, opening > 0
-  std::string
-      edge{};  ///< of an axial-force map of one edge: "PB", "AT", "PA" or "BT"; empty: of all that the oil passes
+  std::string edge{};  ///< of an axial-force map or strokes on a flow bench of one edge: "PB", "AT", "PA" or "BT";
+                       ///< empty: of all that the oil passes
 };
 
 /// The edges of a direction's path, in the order in which the oil passes them.

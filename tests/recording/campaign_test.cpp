@@ -97,6 +97,25 @@ TEST(Campaign, KnowsTheEdgeThatAnAxialForceMapIsOfAndItsDirection) {
   EXPECT_EQ(edges, "PBb ATb PAa BTa ");
 }
 
+std::string metered(std::string campaign) {
+  const std::string_view map = "axial_force_map";
+  for (std::size_t at = campaign.find(map); at != std::string::npos; at = campaign.find(map))
+    campaign.replace(at, map.size(), "metering");
+  return campaign;
+}
+
+TEST(Campaign, TakesStrokesOnAFlowBenchOneEdgeAtATime) {
+  const TemporaryFile file("campaign.toml", metered(maps_with({"edge = \"PB\"\n", "edge = \"AT\"\n"})));
+  std::ofstream(file.folder() / "spring.csv") << "time_s\n";
+  const Campaign campaign = read_campaign(file.path());
+  EXPECT_EQ(campaign.recordings.front().edge, "PB");
+  EXPECT_EQ(campaign.recordings.back().edge, "AT");
+  EXPECT_THAT(refused_campaign(metered(maps_with({"edge = \"PB\"\n"}))), HasSubstr("add metering recordings with"));
+  EXPECT_THAT(refused_campaign(metered(maps_with({"edge = \"PB\"\n", "edge = \"AT\"\n"})) +
+                               "[[recording]]\nprotocol = \"axial_force_map\"\nfile = \"spring.csv\"\nedge = \"PB\"\n"),
+              HasSubstr("edges are measured one at a time by one of the two"));
+}
+
 TEST(Campaign, TakesBothEdgesAsMeasuredTogetherAndEqualFlowsWhereNothingIsSaid) {
   const TemporaryFile file("campaign.toml", maps_with({"", "direction = \"a\"\n"}));
   std::ofstream(file.folder() / "spring.csv") << "time_s\n";

@@ -51,12 +51,13 @@ using Values = std::vector<std::pair<Channel, double>>;
 /// The fitted forces at one oil temperature.
 class Forces {
  public:
-  explicit Forces(const FlowBenchFit& fit, double temperature_K) : fit_(fit) {
+  Forces(const FlowBenchFit& fit, double temperature_K, int edge) : fit_(fit) {
     const std::vector<double>& known = fit.layout.temperatures_K;
+    std::size_t nearest = 0;
     for (std::size_t k = 1; k < known.size(); ++k) {
-      if (std::abs(known[k] - temperature_K) < std::abs(known[static_cast<std::size_t>(layer_)] - temperature_K))
-        layer_ = static_cast<int>(k);
+      if (std::abs(known[k] - temperature_K) < std::abs(known[nearest] - temperature_K)) nearest = k;
     }
+    layer_ = edge * fit.layout.layers_of_edge() + static_cast<int>(nearest);
   }
   [[nodiscard]] double spring_N(double x) const {
     return at(fit_.layout.spring, x, [&](int k) { return fit_.layout.spring_at(k); });
@@ -79,12 +80,12 @@ class Forces {
   }
 
   const FlowBenchFit& fit_;
-  int layer_ = 0;
+  int layer_;
 };
 
 Recording spring_of(const FlowBenchFit& fit, double temperature_K, double stroke_m) {
   Strokes out("spring, from strokes without pressure", stroke_m);
-  const Forces forces(fit, temperature_K);
+  const Forces forces(fit, temperature_K, 0);
   out.stroke([&](double x, double direction) {
     return Values{{Channel::axial_force, forces.spring_N(x) + direction * forces.friction_N(x, 0)},
                   {Channel::oil_temperature, temperature_K}};
@@ -113,9 +114,9 @@ double interpolated(const std::vector<double>& values, double share) {
 }
 
 Recording axial_force_of(const FlowBenchFit& fit, const ConductanceFit& flow, const std::filesystem::path& file,
-                         double stroke_m) {
+                         double stroke_m, int edge = 0) {
   Strokes out(file, stroke_m);
-  const Forces forces(fit, flow.oil_temperature_K);
+  const Forces forces(fit, flow.oil_temperature_K, edge);
   for (const ConductanceLevel& level : flow.levels) {
     const double pressure_Pa = level.pressure_difference_Pa;
     out.stroke([&](double x, double direction) {
@@ -148,7 +149,7 @@ model::Fit known_of_forces(const FlowBenchFit& fit, const ConductanceFit& flow, 
   const ForceLayout& layout = fit.layout;
   const double x = at_stroke_share * stroke_m;
   int layer = 0;
-  while (layer + 1 < layout.layers() &&
+  while (layer + 1 < layout.layers_of_edge() &&
          layout.temperatures_K[static_cast<std::size_t>(layer)] < flow.oil_temperature_K - 3)
     ++layer;
   const auto knot = [&](const Knots& knots) { return static_cast<int>(std::lround(x / stroke_m * (knots.count - 1))); };
@@ -189,7 +190,7 @@ double scale_uncertainty(const EquivalentBenches& benches, const FlowBenchFit& f
 
 double largest_voltage_V(const FlowBenchRecordings& recordings) {
   double out = 0;
-  for (const auto* all : {&recordings.unpressurised, &recordings.metering}) {
+  for (const auto* all : {&recordings.unpressurised, &recordings.metering, &recordings.metering_outlet}) {
     for (const Recording* recording : *all) {
       for (const double voltage_V : recording->column(Channel::voltage)) {
         if (std::isfinite(voltage_V)) out = std::max(out, std::abs(voltage_V));
@@ -241,9 +242,11 @@ EquivalentBenches equivalent_benches(const FlowBenchRecordings& recordings, cons
   for (const Recording* dry : recordings.unpressurised) temperature_K = mean_oil_temperature_K(*dry);
   if (std::isnan(temperature_K)) temperature_K = fit.layout.temperatures_K[fit.layout.temperatures_K.size() / 2];
   std::vector<const Recording*> of_valve = recordings.metering;
+  of_valve.insert(of_valve.end(), recordings.metering_outlet.begin(), recordings.metering_outlet.end());
   of_valve.insert(of_valve.end(), recordings.unpressurised.begin(), recordings.unpressurised.end());
   EquivalentBenches out{spring_of(fit, temperature_K, stroke_m),
                         force_map_of(fit, stroke_m),
+                        {},
                         {},
                         actuator_of(fit),
                         fit_position_sensor(of_valve, stroke_m),
@@ -260,6 +263,11 @@ EquivalentBenches equivalent_benches(const FlowBenchRecordings& recordings, cons
     out.flow_residual_m3_per_s = std::max(out.flow_residual_m3_per_s, flow.residual_m3_per_s);
     out.axial_force_maps.push_back(axial_force_of(fit, flow, metering->file, stroke_m));
     if (out.known.empty()) out.known.push_back(known_of_forces(fit, flow, stroke_m));
+  }
+  for (const Recording* metering : recordings.metering_outlet) {
+    const ConductanceFit flow = fit_conductance(*metering, stroke_m);
+    out.flow_residual_m3_per_s = std::max(out.flow_residual_m3_per_s, flow.residual_m3_per_s);
+    out.outlet_force_maps.push_back(axial_force_of(fit, flow, metering->file, stroke_m, 1));
   }
   const auto metered = [&](const AxialForceFit& map) {
     return std::ranges::any_of(flows, [&](const ConductanceFit& flow) {

@@ -14,7 +14,8 @@ namespace spoolflow::calibration {
 struct EquivalentBenches {
   recording::Recording spring;
   recording::Recording solenoid_force_map;
-  std::deque<recording::Recording> axial_force_maps;  ///< one a recording of `metering`, then of further oil
+  std::deque<recording::Recording> axial_force_maps;   ///< one a recording of `metering`, then of further oil
+  std::deque<recording::Recording> outlet_force_maps;  ///< of the outlet, where edges were metered one at a time
   ActuatorFit actuator;
   PositionSensorFit position;                          ///< of the valve's own sensor
   double force_residual_N;                             ///< RMS of what the forces leave of the sliding samples

@@ -114,7 +114,10 @@ double largest_current_A(const std::vector<TrackedRun>& runs) {
 std::vector<TrackedRun> track_all(const FlowBenchRecordings& recordings, double stroke_m) {
   std::vector<TrackedRun> out;
   for (const recording::Recording* each : recordings.metering) out.push_back(track_run(*each, stroke_m, true));
+  for (const recording::Recording* each : recordings.metering_outlet)
+    out.emplace_back(track_run(*each, stroke_m, true)).edge = 1;
   for (const recording::Recording* each : recordings.unpressurised) out.push_back(track_run(*each, stroke_m, false));
+  if (recordings.one_edge_at_a_time()) return out;  // at work both share the pressure difference
   for (const recording::Recording* each : recordings.operation) {
     if (!pressure_difference_Pa(*each).empty()) out.push_back(track_run(*each, stroke_m, true));
   }
@@ -226,9 +229,10 @@ FlowBenchFit fit_flow_bench(const FlowBenchRecordings& recordings, const Measure
   const double largest_A =
       measured.actuator ? measured.actuator->actuator.magnetic_force.map.row_axis.at(sensor::force_map_currents - 1)
                         : largest_current_A(runs);
+  const std::size_t metered = recordings.metering.size() + recordings.metering_outlet.size();
   FlowBenchFit out{
-      ForceLayout(largest_A, stroke_m,
-                  rising_temperatures_K(runs, std::max<std::size_t>(1, recordings.metering.size()), measured.axial)),
+      ForceLayout(largest_A, stroke_m, rising_temperatures_K(runs, std::max<std::size_t>(1, metered), measured.axial),
+                  recordings.one_edge_at_a_time() ? 2 : 1),
       {},
       {},
       {},

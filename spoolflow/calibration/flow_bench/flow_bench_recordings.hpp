@@ -13,8 +13,11 @@ namespace spoolflow::calibration {
 /// The recordings of one direction made by the valve's own solenoid.
 struct FlowBenchRecordings {
   std::vector<const recording::Recording*> unpressurised;
-  std::vector<const recording::Recording*> metering;
+  std::vector<const recording::Recording*> metering;  ///< of all edges that the oil passes; or of the inlet alone
   std::vector<const recording::Recording*> operation;
+  std::vector<const recording::Recording*> metering_outlet{};  ///< of the outlet alone; empty where both are joined
+
+  [[nodiscard]] bool one_edge_at_a_time() const { return !metering_outlet.empty(); }
 };
 
 /// What force benches measured of the same valve, empty where they did not; positions free of drift.

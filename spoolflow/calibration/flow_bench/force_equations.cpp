@@ -49,19 +49,20 @@ struct Layer {
   double share;
 };
 
-Layer layer_at(const ForceLayout& layout, double temperature_K) {
+Layer layer_at(const ForceLayout& layout, double temperature_K, int edge) {
   const std::vector<double>& known = layout.temperatures_K;
-  if (known.size() == 1 || std::isnan(temperature_K)) return {0, 0};
+  const int first = edge * layout.layers_of_edge();
+  if (known.size() == 1 || std::isnan(temperature_K)) return {first, 0};
   std::size_t k = 0;
   while (k + 2 < known.size() && temperature_K > known[k + 1]) ++k;
-  return {static_cast<int>(k), std::clamp((temperature_K - known[k]) / (known[k + 1] - known[k]), 0.0, 1.0)};
+  return {first + static_cast<int>(k), std::clamp((temperature_K - known[k]) / (known[k + 1] - known[k]), 0.0, 1.0)};
 }
 
 template <class At>
 void add_layers(Row& row, const ForceLayout& layout, const Layer& layer, const Knots& knots, double x, double factor,
                 const At& at) {
   const Knots::Place place = knots.at(x);
-  for (int l = 0; l < std::min(2, layout.layers()); ++l) {
+  for (int l = 0; l < std::min(2, layout.layers_of_edge()); ++l) {
     const double share = factor * (l == 0 ? 1 - layer.share : layer.share);
     if (share == 0) continue;
     row.emplace_back(at(layer.lower + l, place.lower), share * (1 - place.share));
@@ -89,7 +90,7 @@ Equation equation_of(const ForceLayout& layout, const sensor::MagneticForce<doub
   const Knots::Place s = layout.spring.at(x);
   out.row.emplace_back(layout.spring_at(s.lower), -(1 - s.share));
   out.row.emplace_back(layout.spring_at(s.lower + 1), -s.share);
-  const Layer layer = layer_at(layout, run.run->oil_temperature_K);
+  const Layer layer = layer_at(layout, run.run->oil_temperature_K, run.run->edge);
   const double d = sample.direction;
   if (!run.armature_friction_N.empty()) out.right += d * run.armature_friction_N[k];
   const auto force_at = [&](int l, int n) { return layout.force_at(l, n); };
@@ -138,6 +139,7 @@ void add_priors(Equations& to, const ForceLayout& l, const ForcePriors& priors) 
     add_smooth(to, l.loaded.count, 0.01, [&](int k) { return l.loaded_at(layer, k); });
   }
   for (int layer = 0; layer + 1 < l.layers(); ++layer) {  // what no stroke reached at one temperature, others did
+    if ((layer + 1) % l.layers_of_edge() == 0) continue;  // the next is of the other edge
     for (int k = 0; k < l.force.count; ++k)
       to.add({{l.force_at(layer, k), 1.0}, {l.force_at(layer + 1, k), -1.0}}, 0, 0.05);
     for (int k = 0; k < l.loaded.count; ++k)
@@ -155,7 +157,7 @@ void add_measured(Equations& to, const ForceLayout& l, const std::vector<Measure
   for (const MeasuredForce& each : measured) {
     const Knots::Place s = l.spring.at(each.position_m);
     Row row{{l.spring_at(s.lower), 1 - s.share}, {l.spring_at(s.lower + 1), s.share}};
-    add_layers(row, l, layer_at(l, each.oil_temperature_K), l.force, each.position_m,
+    add_layers(row, l, layer_at(l, each.oil_temperature_K, 0), l.force, each.position_m,
                1e-5 * each.pressure_difference_Pa, [&](int layer, int k) { return l.force_at(layer, k); });
     to.add(row, each.force_N, deviation_N);
   }
@@ -175,8 +177,11 @@ Knots::Place Knots::at(double x) const {
   return {lower, raw - lower};
 }
 
-ForceLayout::ForceLayout(double largest_current, double stroke, std::vector<double> temperatures)
-    : largest_current_A(largest_current), stroke_m(stroke), temperatures_K(std::move(temperatures)) {
+ForceLayout::ForceLayout(double largest_current, double stroke, std::vector<double> temperatures, int edges_apart)
+    : largest_current_A(largest_current),
+      stroke_m(stroke),
+      temperatures_K(std::move(temperatures)),
+      edges(edges_apart) {
   currents.end = largest_current;
   for (Knots* knots : {&places, &spring, &force, &dry, &loaded}) knots->end = stroke;
 }

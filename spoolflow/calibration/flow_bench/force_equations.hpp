@@ -40,11 +40,13 @@ struct ForceLayout {
   double largest_current_A;
   double stroke_m;
   std::vector<double> temperatures_K;  ///< rising; one at least
+  int edges;                           ///< 2 where inlet and outlet were metered one at a time, each with its layers
 
   Knots currents{9, 1}, places{9, 1}, spring{17, 1}, force{33, 1}, dry{4, 1}, loaded{9, 1};
 
-  ForceLayout(double largest_current, double stroke, std::vector<double> temperatures);
-  [[nodiscard]] int layers() const { return static_cast<int>(temperatures_K.size()); }
+  ForceLayout(double largest_current, double stroke, std::vector<double> temperatures, int edges_apart = 1);
+  [[nodiscard]] int layers_of_edge() const { return static_cast<int>(temperatures_K.size()); }
+  [[nodiscard]] int layers() const { return edges * layers_of_edge(); }
   [[nodiscard]] int map_at(int current, int place) const { return current * places.count + place; }
   [[nodiscard]] int spring_at(int k) const { return currents.count * places.count + k; }
   [[nodiscard]] int force_at(int layer, int k) const { return spring_at(spring.count) + layer * force.count + k; }

@@ -78,7 +78,7 @@ std::vector<double> pressure_difference_Pa(const recording::Recording& recording
 TrackedRun track_run(const recording::Recording& recording, double stroke_m, bool pressurised) {
   const auto position_m = recording[Channel::position];
   TrackedRun out{
-      coil_samples(recording, closed_reading_m(position_m, stroke_m)), mean_oil_temperature_K(recording), {}};
+      coil_samples(recording, closed_reading_m(position_m, stroke_m)), mean_oil_temperature_K(recording), {}, 0};
   const std::vector<double> pressure_Pa = pressurised ? pressure_difference_Pa(recording) : std::vector<double>{};
   const double noise_m = noise_of(position_m);
   const sensor::PositionSensor<double> position_sensor{std::isnan(noise_m) ? 1e-6 : noise_m, 0, 0, 0,

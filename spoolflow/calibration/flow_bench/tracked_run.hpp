@@ -20,7 +20,8 @@ struct TrackedRun {
   SolenoidSamples coil;      ///< without force; current and voltage as means over the step, the closed spool reads zero
   double oil_temperature_K;  ///< mean; NaN where it was not recorded
   std::vector<SlidingSample>
-      sliding;  ///< some of each millisecond's, away from the ends of the stroke and from reversals
+      sliding;   ///< some of each millisecond's, away from the ends of the stroke and from reversals
+  int edge = 0;  ///< 1: of the outlet alone
 };
 
 /// Position by the sensor's own track. `pressurised` is false for strokes with the pump off: whatever was measured of a

@@ -12,6 +12,7 @@
 #include "spoolflow/calibration/type/type_model.hpp"
 #include "spoolflow/calibration/type/unit_population.hpp"
 #include "spoolflow/calibration/type/unit_tables.hpp"
+#include "spoolflow/model/residual_of.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -25,6 +26,23 @@ Deviations deviations_of(const Eigen::VectorXd& values) {
   Deviations out{};
   std::copy(values.begin(), values.end(), out.begin());
   return out;
+}
+
+/// By a load cell or a force rig, and not inferred from the coil's coenergy.
+bool newtons_measured(const model::Model& unit) {
+  return std::ranges::none_of(unit.provenance.quantities, [](const model::KnownQuantity& each) {
+    return each.of == model::scale_of_forces && each.how == "inferred";
+  });
+}
+
+TableComparison beside(const model::Model& base, const model::Model& unit) {
+  constexpr double least_N = 0.2;
+  const auto left_N = [](const model::Model& of) {
+    return model::residual_of(of, of.observer->residuals, model::of_axial_force).rms;
+  };
+  std::optional<double> balance_N;
+  if (!newtons_measured(base) || !newtons_measured(unit)) balance_N = std::hypot(least_N, left_N(base), left_N(unit));
+  return {base.observer->parameters, unit.observer->parameters, balance_N};
 }
 
 /// What the tables of one unit say of its deviations from the first.
@@ -132,22 +150,21 @@ std::size_t nearest_to(const Population& middle) {
 SeveralUnits compare_units(const std::vector<model::Model>& units, const Deviations& tolerances) {
   require_comparable(units);
   const KnownDeviations prior = spread_of(tolerances);
-  const auto beside = [&](std::size_t base) {
+  const auto about = [&](std::size_t base) {
     std::vector<UnitLikelihood> likelihoods;
-    for (const model::Model& unit : units)
-      likelihoods.push_back(likelihood_of({units[base].observer->parameters, unit.observer->parameters}, prior));
+    for (const model::Model& unit : units) likelihoods.push_back(likelihood_of(beside(units[base], unit), prior));
     return population_of(likelihoods, prior.covariance);
   };
-  Population middle = beside(0);
+  Population middle = about(0);
   require_each_once(units, middle.units);
   require_one_type(units, middle, tolerances);
   SeveralUnits out{nearest_to(middle), {}, {}, {}};
-  if (out.nearest != 0) middle = beside(out.nearest);
+  if (out.nearest != 0) middle = about(out.nearest);
   out.middle = deviations_of(middle.of.mean);
   out.next.mean = Eigen::VectorXd::Zero(deviating);
   out.next.covariance = middle.of.covariance + middle.open;
   for (std::size_t k = 0; k < units.size(); ++k) {
-    const TableComparison comparison{units[out.nearest].observer->parameters, units[k].observer->parameters};
+    const TableComparison comparison = beside(units[out.nearest], units[k]);
     out.units.push_back({units[k].valve.name, deviations_of(middle.units[k] - vector_of(out.middle)),
                          comparison.force_left_N(deviations_of(middle.units[k]))});
   }

@@ -19,6 +19,12 @@ constexpr double flux_share = 0.01, loop_share = 0.05, resistance_share = 0.005,
 constexpr double rows_apart = 6;
 constexpr std::array<double, 9> places{0.08, 0.18, 0.28, 0.39, 0.5, 0.61, 0.72, 0.83, 0.94};
 constexpr std::array<double, 4> shares_of_current{0.3, 0.5, 0.7, 0.9}, shares_of_pressure{0.25, 0.5, 0.75, 1};
+constexpr std::array<double, 4> balanced_at{0, 0.33, 0.67, 1};  ///< shares of the highest pressure
+
+struct Newtons {
+  std::optional<double> balance_N;  ///< see TableComparison
+  double scale;                     ///< the unit's newton in that of the base
+};
 
 /// Rows of tables, one after the other.
 struct Rows {
@@ -28,33 +34,61 @@ struct Rows {
   void end_table() { ends.push_back(static_cast<Eigen::Index>(values.size())); }
 };
 
-void add_solenoid(Rows& rows, const Parameters& unit, const Parameters& base, const std::vector<double>& positions_m) {
-  const sensor::ActuatorParameters<double>&of = unit.actuator, &scale = base.actuator;
-  const double largest_A = base.largest_current_A;
+std::vector<double> positions_of(const Parameters& base) {
+  const double begin_m = base.edge.position_m.first, end_m = base.edge.position_m.at(sensor::edge_positions - 1);
+  std::vector<double> out;
+  for (const double place : places) out.push_back(begin_m + place * (end_m - begin_m));
+  return out;
+}
+
+/// Forces as force rigs measured them, each by itself.
+void add_measured_forces(Rows& rows, const Parameters& unit, const Parameters& base,
+                         const std::vector<double>& positions_m) {
+  for (const double position_m : positions_m) rows.add(unit.spring.at(position_m).value, spring_N);
+  rows.end_table();
   for (const double share : shares_of_current) {
     for (const double position_m : positions_m)
-      rows.add(of.magnetic_force.at(share * largest_A, position_m).value, magnetic_force_N);
+      rows.add(unit.actuator.magnetic_force.at(share * base.largest_current_A, position_m).value, magnetic_force_N);
   }
   rows.end_table();
-  const double flux_Wb = scale.coil.flux_linkage.map.at(largest_A, positions_m.front()).value;
+}
+
+/// What a flow bench sees of forces: what is left of the unit's, in the newtons of the base, where the base's balance.
+void add_balances(Rows& rows, const Parameters& unit, const Parameters& base, const std::vector<double>& positions_m,
+                  const Newtons& newtons) {
+  const double highest_Pa = base.edge.highest_pressure_difference_Pa();
+  for (const double share : balanced_at) {
+    for (const double position_m : positions_m)
+      rows.add(effects_at(unit, balanced_point(base, position_m, share * highest_Pa)).force_N / newtons.scale,
+               *newtons.balance_N);
+  }
+  rows.end_table();
+}
+
+void add_coil(Rows& rows, const Parameters& unit, const Parameters& base, const std::vector<double>& positions_m,
+              double scale) {
+  const sensor::ActuatorParameters<double>&of = unit.actuator, &beside = base.actuator;
+  const double largest_A = base.largest_current_A;
+  const double flux_Wb = beside.coil.flux_linkage.map.at(largest_A, positions_m.front()).value;
   for (const double share : shares_of_current) {
     for (const double position_m : positions_m)
       rows.add(of.coil.flux_linkage.map.at(share * largest_A, position_m).value, flux_share * flux_Wb);
   }
   rows.end_table();
-  rows.add(of.coercive_current_A, loop_share * std::max(scale.coercive_current_A, 1e-6));
+  rows.add(of.coercive_current_A, loop_share * std::max(beside.coercive_current_A, 1e-6));
   rows.end_table();
-  rows.add(of.coil_resistance.resistance_Ohm, resistance_share * std::max(scale.coil_resistance.resistance_Ohm, 1e-6));
+  rows.add(of.coil_resistance.resistance_Ohm, resistance_share * std::max(beside.coil_resistance.resistance_Ohm, 1e-6));
   rows.end_table();
   for (const double share : shares_of_current) {
     const double position_m = positions_m[positions_m.size() / 2];
-    rows.add(of.friction_N.at(share * largest_A, position_m).value,
-             friction_share * std::max(scale.friction_N.at(share * largest_A, position_m).value, 0.02));
+    rows.add(of.friction_N.at(share * largest_A, position_m).value / scale,
+             friction_share * std::max(beside.friction_N.at(share * largest_A, position_m).value, 0.02));
   }
   rows.end_table();
 }
 
-void add_edge(Rows& rows, const Parameters& unit, const Parameters& base, const std::vector<double>& positions_m) {
+void add_edge(Rows& rows, const Parameters& unit, const Parameters& base, const std::vector<double>& positions_m,
+              const Newtons& newtons) {
   const double temperature_K = base.edge.temperature_K.at(1), highest_Pa = base.edge.highest_pressure_difference_Pa();
   const double widest = base.edge.at(temperature_K, highest_Pa, positions_m.back()).conductance;
   std::vector<sensor::EdgePoint<double>> points;
@@ -64,11 +98,13 @@ void add_edge(Rows& rows, const Parameters& unit, const Parameters& base, const 
   }
   for (const auto& point : points) rows.add(point.conductance, flow_share * widest);
   rows.end_table();
-  for (const auto& point : points) rows.add(point.flow_force_N, flow_force_N);
-  rows.end_table();
+  if (!newtons.balance_N) {
+    for (const auto& point : points) rows.add(point.flow_force_N, flow_force_N);
+    rows.end_table();
+  }
   for (const double share : {0.0, 1.0}) {
     for (const double position_m : positions_m) {
-      rows.add(unit.edge.at(temperature_K, share * highest_Pa, position_m).friction_N,
+      rows.add(unit.edge.at(temperature_K, share * highest_Pa, position_m).friction_N / newtons.scale,
                friction_share * std::max(base.edge.at(temperature_K, share * highest_Pa, position_m).friction_N, 0.05));
     }
   }
@@ -76,16 +112,32 @@ void add_edge(Rows& rows, const Parameters& unit, const Parameters& base, const 
 }
 
 /// All tables of `unit`, at the points and over the scales of `base`.
-Rows rows_of(const Parameters& unit, const Parameters& base) {
-  const double begin_m = base.edge.position_m.first, end_m = base.edge.position_m.at(sensor::edge_positions - 1);
-  std::vector<double> positions_m;
-  for (const double place : places) positions_m.push_back(begin_m + place * (end_m - begin_m));
+Rows rows_of(const Parameters& unit, const Parameters& base, const Newtons& newtons) {
+  const std::vector<double> positions_m = positions_of(base);
   Rows rows;
-  for (const double position_m : positions_m) rows.add(unit.spring.at(position_m).value, spring_N);
-  rows.end_table();
-  add_solenoid(rows, unit, base, positions_m);
-  add_edge(rows, unit, base, positions_m);
+  if (newtons.balance_N) {
+    add_balances(rows, unit, base, positions_m, newtons);
+  } else {
+    add_measured_forces(rows, unit, base, positions_m);
+  }
+  add_coil(rows, unit, base, positions_m, newtons.scale);
+  add_edge(rows, unit, base, positions_m, newtons);
   return rows;
+}
+
+/// The newton of `unit` in that of `base`: magnetic forces where those of `base` balance differ by a few percent
+/// between units of a type.
+double scale_between(const Parameters& base, const Parameters& unit) {
+  const double highest_Pa = base.edge.highest_pressure_difference_Pa();
+  double of_unit_N = 0, of_base_N = 0;
+  for (const double share : balanced_at) {
+    for (const double position_m : positions_of(base)) {
+      const OperatingPoint point = balanced_point(base, position_m, share * highest_Pa);
+      of_unit_N += unit.actuator.magnetic_force.at(point.current_A, position_m).value;
+      of_base_N += base.actuator.magnetic_force.at(point.current_A, position_m).value;
+    }
+  }
+  return of_unit_N > 0 && of_base_N > 0 ? of_unit_N / of_base_N : 1;
 }
 
 Eigen::VectorXd vector_of(const std::vector<double>& values) {
@@ -94,14 +146,15 @@ Eigen::VectorXd vector_of(const std::vector<double>& values) {
 
 }  // namespace
 
-TableComparison::TableComparison(const Parameters& base, const Parameters& unit) : base_(base), unit_(unit) {
-  Rows rows = rows_of(unit, base);
+TableComparison::TableComparison(const Parameters& base, const Parameters& unit, std::optional<double> balance_N)
+    : base_(base), unit_(unit), balance_N_(balance_N) {
+  Rows rows = rows_of(unit, base, {balance_N, balance_N ? scale_between(base, unit) : 1});
   of_unit_ = vector_of(rows.values);
   ends_ = std::move(rows.ends);
 }
 
 Eigen::VectorXd TableComparison::rows(const Deviations& deviations) const {
-  return vector_of(rows_of(unit_parameters(base_, deviations), base_).values) - of_unit_;
+  return vector_of(rows_of(unit_parameters(base_, deviations), base_, {balance_N_, 1}).values) - of_unit_;
 }
 
 Eigen::VectorXd TableComparison::weights(const Eigen::VectorXd& left) const {

@@ -1,5 +1,6 @@
 #pragma once
 /// Two units of a type beside each other, table by table.
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -12,8 +13,11 @@ namespace spoolflow::calibration {
 /// friction have beyond those of another that deviates.
 class TableComparison {
  public:
-  /// Keeps both by reference.
-  TableComparison(const sensor::ObserverParameters<double>& base, const sensor::ObserverParameters<double>& unit);
+  /// Keeps both by reference. `balance_N` is given where no force rig measured the newtons of one of them: a common
+  /// factor of all forces then counts for nothing, and magnetic, spring and flow force are compared by what their
+  /// balance leaves, to within so much. Motion on a flow bench shows no more.
+  TableComparison(const sensor::ObserverParameters<double>& base, const sensor::ObserverParameters<double>& unit,
+                  std::optional<double> balance_N = {});
 
   /// Base with `deviations`, less the unit: each row over what a campaign's own fit leaves of it.
   [[nodiscard]] Eigen::VectorXd rows(const Deviations& deviations) const;
@@ -27,6 +31,7 @@ class TableComparison {
  private:
   const sensor::ObserverParameters<double>& base_;
   const sensor::ObserverParameters<double>& unit_;
+  std::optional<double> balance_N_;
   Eigen::VectorXd of_unit_;
   std::vector<Eigen::Index> ends_;  ///< of each table's rows
 };

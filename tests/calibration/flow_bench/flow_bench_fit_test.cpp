@@ -29,8 +29,9 @@ double friction_at(double x, double pressure_Pa) {
   return 2.0 + 3e-4 * x * pressure_Pa;
 }
 
-/// Strokes both ways at each pressure difference, a rest at either end.
-recording::Recording strokes(const std::vector<double>& pressures_Pa, bool with_voltage) {
+/// Strokes both ways at each pressure difference, a rest at either end; of an edge with `flow_force_share` of the flow
+/// force.
+recording::Recording strokes(const std::vector<double>& pressures_Pa, bool with_voltage, double flow_force_share = 1) {
   constexpr double sampling_s = 2e-3, stroke_s = 3;
   recording::Recording out;
   out.file = "strokes.csv";
@@ -38,7 +39,8 @@ recording::Recording strokes(const std::vector<double>& pressures_Pa, bool with_
   std::normal_distribution<double> unit(0, 1);
   double flux_Wb = 0, time_s = 0;
   const auto put = [&](double x, double direction, double pressure_Pa) {
-    const double force_N = spring_at(x) + flow_force_at(x, pressure_Pa) + direction * friction_at(x, pressure_Pa);
+    const double force_N =
+        spring_at(x) + flow_force_share * flow_force_at(x, pressure_Pa) + direction * friction_at(x, pressure_Pa);
     const double current_A = direction == 0 ? 0 : std::sqrt(force_N / force_per_A2);
     const double now_Wb = current_A * (inductance_H + inductance_per_m * x);
     out.column(Channel::time).push_back(time_s += sampling_s);
@@ -100,6 +102,23 @@ TEST(FlowBenchFit, FindsTheForcesInNewtonsFromVoltageAndMotionAlone) {
   }
   EXPECT_LT(fit.forces.residual_N, 0.2);
   EXPECT_NEAR(fit.flux_linkage.coil_resistance.resistance_Ohm, resistance_Ohm, 0.03);
+}
+
+TEST(FlowBenchFit, GivesEachEdgeThatIsMeteredAloneItsOwnFlowForce) {
+  const recording::Recording dry = strokes({0, 0}, true);
+  const recording::Recording inlet = strokes({5e5, 2e6, 4e6, 6e6}, true), outlet = strokes({5e5, 3e6, 6e6}, true, 0.6);
+  const FlowBenchFit fit = fit_flow_bench({{&dry}, {&inlet}, {}, {&outlet}}, {}, driven_stroke_m);
+  const ForceLayout& layout = fit.layout;
+  ASSERT_EQ(layout.layers(), 2);
+  for (int k = 12; k < 30; k += 4) {
+    const double of_inlet = fit.forces.unknowns(layout.force_at(0, k)),
+                 of_outlet = fit.forces.unknowns(layout.force_at(1, k));
+    const double x = driven_stroke_m * k / (layout.force.count - 1);
+    const double expected = 1e5 * flow_force_at(x, 1) / spring_at(x);  // newtons drop out
+    EXPECT_NEAR(of_inlet / fit.forces.unknowns(layout.spring_at(k / 2)), expected, 0.08 * expected);
+    EXPECT_NEAR(of_outlet / of_inlet, 0.6, 0.03);
+  }
+  EXPECT_LT(fit.forces.residual_N, 0.2);
 }
 
 TEST(FlowBenchFit, KeepsASpringThatAForceBenchMeasured) {

@@ -128,5 +128,72 @@ TEST(SeveralUnits, TwoAreNoTypeAndAValveOfAnotherSpringIsNamed) {
   EXPECT_THROW((void)compare_units(units, tolerances_from({})), CalibrationError);
 }
 
+/// As a flow bench gives it, whose newtons are `newton` of a load cell's.
+model::Model from_flow_bench(model::Model unit, double newton) {
+  sensor::ObserverParameters<double>& of = unit.observer->parameters;
+  const auto scale = [&](auto& values) {
+    for (double& value : values) value *= newton;
+  };
+  scale(of.actuator.magnetic_force.map.values);
+  scale(of.actuator.magnetic_force.hysteresis_half_width_N.values);
+  scale(of.actuator.friction_N.values);
+  scale(of.spring.curve.values);
+  for (int layer = 0; layer < sensor::edge_temperatures; ++layer) {
+    for (int row = 0; row < sensor::edge_pressures; ++row) {
+      for (int column = 0; column < sensor::edge_positions; ++column) {
+        of.edge.flow_force_N.node(layer, row, column) *= newton;
+        of.edge.friction_N.node(layer, row, column) *= newton;
+      }
+    }
+  }
+  unit.provenance.quantities = {{"b", std::string(model::scale_of_forces), "inferred", "coenergy", "1", 0.28}};
+  return unit;
+}
+
+/// Two units of the valve, and the third; newtons of each are its own flow bench's.
+std::vector<model::Model> on_flow_benches(const Deviations& third) {
+  Deviations second{};
+  second[at(Variation::resistance)] = 0.01;  // no two units measure the same
+  return {from_flow_bench(unit("U0", {}), 1), from_flow_bench(unit("U1", second), 0.8),
+          from_flow_bench(unit("U2", third), 1.25)};
+}
+
+TEST(SeveralUnits, OnFlowBenchesMayReadEachItsOwnNewtons) {
+  Deviations third{};
+  third[at(Variation::resistance)] = -0.01;
+  std::vector<model::Model> units = on_flow_benches(third);
+  const Deviations usual = tolerances_from({});
+  const SeveralUnits compared = compare_units(units, usual);
+  for (const MeasuredUnit& each : compared.units) {
+    for (const Variation of : {Variation::spring_preload, Variation::spring_rate, Variation::permeance,
+                               Variation::flow_force, Variation::spool_friction})
+      EXPECT_LT(std::abs(each.deviations[at(of)]), 0.1 * usual[at(of)]);
+    EXPECT_LT(each.force_left_N, 0.05);
+  }
+  for (model::Model& each : units) each.provenance.quantities.clear();  // as if load cells had measured that
+  EXPECT_THROW((void)compare_units(units, usual), CalibrationError);
+}
+
+TEST(SeveralUnits, OnFlowBenchesShowASpringThatStandsAgainstMoreCurrent) {
+  Deviations third{};
+  third[at(Variation::spring_preload)] = 0.06;
+  const SeveralUnits compared = compare_units(on_flow_benches(third), tolerances_from({}));
+  EXPECT_NEAR(compared.units[2].deviations[at(Variation::spring_preload)] -
+                  compared.units[0].deviations[at(Variation::spring_preload)],
+              0.06, 0.02);
+  EXPECT_LT(compared.units[2].force_left_N, 0.1);
+}
+
+TEST(SeveralUnits, OfAnotherSpringIsNamedByFlowBenchesToo) {
+  Deviations foreign{};
+  foreign[at(Variation::spring_rate)] = 0.25;
+  try {
+    (void)compare_units(on_flow_benches(foreign), tolerances_from({}));
+    FAIL() << "a spring of another rate passed for one of the type";
+  } catch (const CalibrationError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("U2 is not of one type with the others: its spring_rate"));
+  }
+}
+
 }  // namespace
 }  // namespace spoolflow::calibration
