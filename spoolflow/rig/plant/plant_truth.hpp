@@ -44,12 +44,13 @@ inline SolenoidOutputOf<Scalar> solenoid_output(const SolenoidStateOf<Scalar>& s
 /// The edges that the spool opens, as one path.
 template <class Scalar>
 inline PathOutputOf<Scalar> open_path(const PlantParametersOf<Scalar>& p, const PlantOutputOf<Scalar>& out) {
-  const Mask<Scalar> right = out.position_m >= 0.0;
+  const bool return_alone = p.load.kind == LoadKind::held_return;
+  // Fed through A alone, the bench's sensors stand over A to T wherever the spool is.
+  const Mask<Scalar> right = out.position_m >= (return_alone ? -1.0 : 0.0);
   const EdgeOutputOf<Scalar> inlet = blended(right, out.edge_PB, out.edge_PA);
   const EdgeOutputOf<Scalar> outlet = blended(right, out.edge_AT, out.edge_BT);
   const Scalar from_B_m3_per_s = out.edge_PB.flow_m3_per_s - out.edge_BT.flow_m3_per_s;
   const Scalar into_A_m3_per_s = out.edge_AT.flow_m3_per_s - out.edge_PA.flow_m3_per_s;
-  const bool return_alone = p.load.kind == LoadKind::held_return;
   return {.flow_m3_per_s = return_alone ? into_A_m3_per_s : select(right, from_B_m3_per_s, into_A_m3_per_s),
           .pressure_difference_Pa = inlet.pressure_difference_Pa + outlet.pressure_difference_Pa,
           .upstream_pressure_Pa = return_alone ? out.pressure_A_Pa : out.pressure_P_Pa};

@@ -115,7 +115,7 @@ TEST(FlowBenchFit, GivesEachEdgeThatIsMeteredAloneItsOwnFlowForce) {
                  of_outlet = fit.forces.unknowns(layout.force_at(1, k));
     const double x = driven_stroke_m * k / (layout.force.count - 1);
     const double expected = 1e5 * flow_force_at(x, 1) / spring_at(x);  // newtons drop out
-    EXPECT_NEAR(of_inlet / fit.forces.unknowns(layout.spring_at(k / 2)), expected, 0.08 * expected);
+    EXPECT_NEAR(of_inlet / fit.forces.unknowns(layout.spring_at(k / 2)), expected, 0.12 * expected);
     EXPECT_NEAR(of_outlet / of_inlet, 0.6, 0.03);
   }
   EXPECT_LT(fit.forces.residual_N, 0.2);
