@@ -204,19 +204,20 @@ void require_whole_paths(const Campaign& campaign) {
     bool other_edge = false;
     for (const CampaignRecording* each : maps) {
       if (each->direction != one->direction) continue;
+      if (each->protocol != one->protocol) {
+        if (one->protocol == Protocol::axial_force_map && each->edge.empty()) continue;  // strokes of the whole path
+        throw RecordingError(fmt::format(
+            "{}: {} is of protocol \"{}\" and {} of \"{}\", both of direction \"{}\"; edges are measured one at a time "
+            "by one of the two: leave the other out",
+            each->place, each->file.filename().string(), name(each->protocol), one->file.filename().string(),
+            name(one->protocol), one->direction));
+      }
       if (each->edge.empty()) {
         throw RecordingError(fmt::format(
             "{}: {} names no edge, and {} is of edge {} alone, both of direction \"{}\"; a direction is measured one "
             "edge at a time ({} and {}) or both together: give each file its edge, or none",
             each->place, each->file.filename().string(), one->file.filename().string(), one->edge, one->direction,
             inlet, outlet));
-      }
-      if (each->protocol != one->protocol) {
-        throw RecordingError(fmt::format(
-            "{}: {} is of protocol \"{}\" and {} of \"{}\", both of one edge of direction \"{}\"; edges are measured "
-            "one at a time by one of the two: leave the other out",
-            each->place, each->file.filename().string(), name(each->protocol), one->file.filename().string(),
-            name(one->protocol), one->direction));
       }
       other_edge = other_edge || each->edge != one->edge;
     }
