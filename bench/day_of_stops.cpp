@@ -81,7 +81,11 @@ class SingleSensor {
  public:
   explicit SingleSensor(const sensor::ObserverParameters<double>& valve) : valve_(in_single(valve)) {}
   sensor::Estimate<double> step(const estimation::TimedSample& sample) {
-    const auto& answer = sensor::step(valve_.front(), state_, times_.next<float>(sample).sample);
+    const sensor::Sample<double> next = times_.next(sample).sample;
+    const sensor::Sample<float> single{static_cast<float>(next.time_step_s), static_cast<float>(next.current_A),
+                                       static_cast<float>(next.voltage_V), static_cast<float>(next.position_m),
+                                       static_cast<float>(next.oil_temperature_K)};
+    const auto& answer = sensor::step(valve_.front(), state_, single);
     return {answer.flow_m3_per_s, answer.flow_lower_m3_per_s, answer.flow_upper_m3_per_s, 0, 0, 0, 0, 0, answer.status};
   }
 
