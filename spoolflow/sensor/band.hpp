@@ -44,7 +44,7 @@ struct OperatingPoint {
   T breakaway_Pa;  ///< what break-away forces may have the pressure difference off by
 };
 
-/// What of a balance tells how much an error of the environment means.
+/// The parts of a force balance that turn an error of the environment into a force.
 template <class T>
 struct EnvironmentEffects {
   EdgePoint<T> edge;

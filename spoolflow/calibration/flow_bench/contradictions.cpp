@@ -113,11 +113,9 @@ void judge_flow(std::vector<std::string>& to, const Recording& recording, const 
 std::vector<std::string> contradictions_of(const FlowBenchRecordings& recordings, const ValveFigures& valve) {
   std::vector<std::string> out;
   for (const Recording* each : recordings.unpressurised) judge_coil(out, *each, valve);
-  for (const auto* edge : {&recordings.metering, &recordings.metering_outlet}) {
-    for (const Recording* each : *edge) {
-      judge_coil(out, *each, valve);
-      judge_flow(out, *each, valve);
-    }
+  for (const Recording* each : recordings.all_metering()) {
+    judge_coil(out, *each, valve);
+    judge_flow(out, *each, valve);
   }
   return out;
 }

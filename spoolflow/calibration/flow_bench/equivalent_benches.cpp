@@ -190,8 +190,8 @@ double scale_uncertainty(const EquivalentBenches& benches, const FlowBenchFit& f
 
 double largest_voltage_V(const FlowBenchRecordings& recordings) {
   double out = 0;
-  for (const auto* all : {&recordings.unpressurised, &recordings.metering, &recordings.metering_outlet}) {
-    for (const Recording* recording : *all) {
+  for (const auto& all : {recordings.unpressurised, recordings.all_metering()}) {
+    for (const Recording* recording : all) {
       for (const double voltage_V : recording->column(Channel::voltage)) {
         if (std::isfinite(voltage_V)) out = std::max(out, std::abs(voltage_V));
       }
@@ -241,8 +241,7 @@ EquivalentBenches equivalent_benches(const FlowBenchRecordings& recordings, cons
   double temperature_K = std::nan("");
   for (const Recording* dry : recordings.unpressurised) temperature_K = mean_oil_temperature_K(*dry);
   if (std::isnan(temperature_K)) temperature_K = fit.layout.temperatures_K[fit.layout.temperatures_K.size() / 2];
-  std::vector<const Recording*> of_valve = recordings.metering;
-  of_valve.insert(of_valve.end(), recordings.metering_outlet.begin(), recordings.metering_outlet.end());
+  std::vector<const Recording*> of_valve = recordings.all_metering();
   of_valve.insert(of_valve.end(), recordings.unpressurised.begin(), recordings.unpressurised.end());
   EquivalentBenches out{spring_of(fit, temperature_K, stroke_m),
                         force_map_of(fit, stroke_m),

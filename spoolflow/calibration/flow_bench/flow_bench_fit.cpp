@@ -229,7 +229,7 @@ FlowBenchFit fit_flow_bench(const FlowBenchRecordings& recordings, const Measure
   const double largest_A =
       measured.actuator ? measured.actuator->actuator.magnetic_force.map.row_axis.at(sensor::force_map_currents - 1)
                         : largest_current_A(runs);
-  const std::size_t metered = recordings.metering.size() + recordings.metering_outlet.size();
+  const std::size_t metered = recordings.all_metering().size();
   FlowBenchFit out{
       ForceLayout(largest_A, stroke_m, rising_temperatures_K(runs, std::max<std::size_t>(1, metered), measured.axial),
                   recordings.one_edge_at_a_time() ? 2 : 1),

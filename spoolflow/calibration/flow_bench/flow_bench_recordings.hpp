@@ -18,6 +18,12 @@ struct FlowBenchRecordings {
   std::vector<const recording::Recording*> metering_outlet{};  ///< of the outlet alone; empty where both are joined
 
   [[nodiscard]] bool one_edge_at_a_time() const { return !metering_outlet.empty(); }
+  /// Strokes under pressure, of whichever edges.
+  [[nodiscard]] std::vector<const recording::Recording*> all_metering() const {
+    std::vector<const recording::Recording*> out = metering;
+    out.insert(out.end(), metering_outlet.begin(), metering_outlet.end());
+    return out;
+  }
 };
 
 /// What force benches measured of the same valve, empty where they did not; positions free of drift.

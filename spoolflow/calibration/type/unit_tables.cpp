@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "spoolflow/calibration/type/unit_effects.hpp"
-
 namespace spoolflow::calibration {
 namespace {
 
@@ -22,8 +20,9 @@ constexpr std::array<double, 4> shares_of_current{0.3, 0.5, 0.7, 0.9}, shares_of
 constexpr std::array<double, 4> balanced_at{0, 0.33, 0.67, 1};  ///< shares of the highest pressure
 
 struct Newtons {
-  std::optional<double> balance_N;  ///< see TableComparison
-  double scale;                     ///< the unit's newton in that of the base
+  std::optional<double> balance_N;              ///< see TableComparison
+  const std::vector<OperatingPoint>& balanced;  ///< where the base's forces balance
+  double scale;                                 ///< the unit's newton in that of the base
 };
 
 /// Rows of tables, one after the other.
@@ -54,14 +53,9 @@ void add_measured_forces(Rows& rows, const Parameters& unit, const Parameters& b
 }
 
 /// What a flow bench sees of forces: what is left of the unit's, in the newtons of the base, where the base's balance.
-void add_balances(Rows& rows, const Parameters& unit, const Parameters& base, const std::vector<double>& positions_m,
-                  const Newtons& newtons) {
-  const double highest_Pa = base.edge.highest_pressure_difference_Pa();
-  for (const double share : balanced_at) {
-    for (const double position_m : positions_m)
-      rows.add(effects_at(unit, balanced_point(base, position_m, share * highest_Pa)).force_N / newtons.scale,
-               *newtons.balance_N);
-  }
+void add_balances(Rows& rows, const Parameters& unit, const Newtons& newtons) {
+  for (const OperatingPoint& point : newtons.balanced)
+    rows.add(effects_at(unit, point).force_N / newtons.scale, *newtons.balance_N);
   rows.end_table();
 }
 
@@ -116,7 +110,7 @@ Rows rows_of(const Parameters& unit, const Parameters& base, const Newtons& newt
   const std::vector<double> positions_m = positions_of(base);
   Rows rows;
   if (newtons.balance_N) {
-    add_balances(rows, unit, base, positions_m, newtons);
+    add_balances(rows, unit, newtons);
   } else {
     add_measured_forces(rows, unit, base, positions_m);
   }
@@ -125,17 +119,23 @@ Rows rows_of(const Parameters& unit, const Parameters& base, const Newtons& newt
   return rows;
 }
 
+std::vector<OperatingPoint> balanced_points(const Parameters& base) {
+  const double highest_Pa = base.edge.highest_pressure_difference_Pa();
+  std::vector<OperatingPoint> out;
+  for (const double share : balanced_at) {
+    for (const double position_m : positions_of(base))
+      out.push_back(balanced_point(base, position_m, share * highest_Pa));
+  }
+  return out;
+}
+
 /// The newton of `unit` in that of `base`: magnetic forces where those of `base` balance differ by a few percent
 /// between units of a type.
-double scale_between(const Parameters& base, const Parameters& unit) {
-  const double highest_Pa = base.edge.highest_pressure_difference_Pa();
+double scale_between(const Parameters& base, const Parameters& unit, const std::vector<OperatingPoint>& balanced) {
   double of_unit_N = 0, of_base_N = 0;
-  for (const double share : balanced_at) {
-    for (const double position_m : positions_of(base)) {
-      const OperatingPoint point = balanced_point(base, position_m, share * highest_Pa);
-      of_unit_N += unit.actuator.magnetic_force.at(point.current_A, position_m).value;
-      of_base_N += base.actuator.magnetic_force.at(point.current_A, position_m).value;
-    }
+  for (const OperatingPoint& point : balanced) {
+    of_unit_N += unit.actuator.magnetic_force.at(point.current_A, point.position_m).value;
+    of_base_N += base.actuator.magnetic_force.at(point.current_A, point.position_m).value;
   }
   return of_unit_N > 0 && of_base_N > 0 ? of_unit_N / of_base_N : 1;
 }
@@ -148,13 +148,14 @@ Eigen::VectorXd vector_of(const std::vector<double>& values) {
 
 TableComparison::TableComparison(const Parameters& base, const Parameters& unit, std::optional<double> balance_N)
     : base_(base), unit_(unit), balance_N_(balance_N) {
-  Rows rows = rows_of(unit, base, {balance_N, balance_N ? scale_between(base, unit) : 1});
+  if (balance_N) balanced_ = balanced_points(base);
+  Rows rows = rows_of(unit, base, {balance_N, balanced_, balance_N ? scale_between(base, unit, balanced_) : 1});
   of_unit_ = vector_of(rows.values);
   ends_ = std::move(rows.ends);
 }
 
 Eigen::VectorXd TableComparison::rows(const Deviations& deviations) const {
-  return vector_of(rows_of(unit_parameters(base_, deviations), base_, {balance_N_, 1}).values) - of_unit_;
+  return vector_of(rows_of(unit_parameters(base_, deviations), base_, {balance_N_, balanced_, 1}).values) - of_unit_;
 }
 
 Eigen::VectorXd TableComparison::weights(const Eigen::VectorXd& left) const {

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "spoolflow/calibration/type/unit_effects.hpp"
 #include "spoolflow/calibration/type/unit_parameters.hpp"
 
 namespace spoolflow::calibration {
@@ -32,6 +33,7 @@ class TableComparison {
   const sensor::ObserverParameters<double>& base_;
   const sensor::ObserverParameters<double>& unit_;
   std::optional<double> balance_N_;
+  std::vector<OperatingPoint> balanced_;  ///< where the base's forces balance; empty without `balance_N`
   Eigen::VectorXd of_unit_;
   std::vector<Eigen::Index> ends_;  ///< of each table's rows
 };

@@ -149,7 +149,7 @@ struct FrictionSwingState {
 
 static_assert(std::is_trivially_copyable_v<FrictionSwingState<float>>);
 
-/// As {} would, without a library that clears memory.
+/// No swing of friction is known. What `begin_swing` sets stays as it is.
 template <class T>
 constexpr void forget(FrictionSwingState<T>& state) {
   state.excess_N = state.last_highest_N = T(0);
