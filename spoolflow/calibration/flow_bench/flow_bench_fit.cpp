@@ -51,9 +51,9 @@ std::vector<double> magnetise(const TrackedRun& run, const sensor::Coil<double>&
   return out;
 }
 
-std::vector<double> at_sliding(const TrackedRun& run, const std::vector<double>& magnetising_A) {
+std::vector<double> at_samples(const std::vector<SlidingSample>& samples, const std::vector<double>& magnetising_A) {
   std::vector<double> out;
-  for (const SlidingSample& sample : run.sliding) out.push_back(magnetising_A[sample.sample]);
+  for (const SlidingSample& sample : samples) out.push_back(magnetising_A[sample.sample]);
   return out;
 }
 
@@ -61,13 +61,15 @@ std::vector<RunForces> forces_of(const std::vector<TrackedRun>& runs, const Coil
                                  const FluxLinkageFit& flux_linkage, double largest_A) {
   std::vector<RunForces> out;
   for (const TrackedRun& run : runs) {
-    RunForces forces{&run, at_sliding(run, magnetise(run, coil_of(sizes, flux_linkage, largest_A))), {}, {}};
+    const std::vector<double> current_A = magnetise(run, coil_of(sizes, flux_linkage, largest_A));
+    RunForces forces{&run, &run.sliding, at_samples(run.sliding, current_A), {}, {}};
     forces.per_size.resize(forces.magnetising_A.size());
     for (std::size_t n = 0; n < coil_sizes; ++n) {
       CoilSizes turned = sizes;
       const double step = 0.2 * usual_coil_deviation[n];
       turned[n] += step;
-      const std::vector<double> other = at_sliding(run, magnetise(run, coil_of(turned, flux_linkage, largest_A)));
+      const std::vector<double> other =
+          at_samples(run.sliding, magnetise(run, coil_of(turned, flux_linkage, largest_A)));
       for (std::size_t k = 0; k < other.size(); ++k)
         forces.per_size[k][n] = (other[k] - forces.magnetising_A[k]) / step;
     }
@@ -127,10 +129,10 @@ std::vector<TrackedRun> track_all(const FlowBenchRecordings& recordings, double 
 void require_sliding(const std::vector<TrackedRun>& runs) {
   constexpr std::size_t least_samples = 1000;
   std::size_t samples = 0;
-  for (const TrackedRun& run : runs) samples += run.sliding.size();
+  for (const TrackedRun& run : runs) samples += run.passing.size();
   if (samples >= least_samples) return;
   throw CalibrationError(
-      fmt::format("{}: on the flow bench the spool slides evenly in {} samples only, {} are needed to identify the "
+      fmt::format("{}: on the flow bench the spool slides in {} samples only, {} are needed to identify the "
                   "forces; stroke the "
                   "valve over its whole stroke both ways, at 5 %/s or faster, with the electronics' dither off",
                   runs.empty() ? std::string("the campaign") : runs.front().coil.file, samples, least_samples));
@@ -156,25 +158,33 @@ std::vector<MeasuredForce> at_knots(const MeasuredForces& measured, const ForceL
   return out;
 }
 
-/// The coil as a force bench measured it.
-void fit_with_actuator(FlowBenchFit& out, ForcePriors priors, const ActuatorFit& actuator,
-                       const std::vector<TrackedRun>& runs) {
+/// All forces but the magnetic one, which `out` has, and armature friction where it was measured apart.
+void fit_other_forces(FlowBenchFit& out, ForcePriors priors, const std::vector<TrackedRun>& runs,
+                      const sensor::ActuatorParameters<double>* measured) {
   constexpr double held = 1e-6;
   priors.map_share = priors.map_bend = 1e-4;
+  priors.coil = out.coil_sizes;
   priors.coil_deviation = {held, held, held, held};
-  out.flux_linkage = actuator.flux_linkage;
-  out.coil = actuator.actuator.coil;
-  out.magnetic_force = actuator.actuator.magnetic_force;
+  priors.mean_travel_m = 1e-4;
   std::vector<RunForces> forces;
   for (const TrackedRun& run : runs) {
-    RunForces each{&run, at_sliding(run, magnetise(run, out.coil)), {}, {}};
+    RunForces each{&run, &run.passing, at_samples(run.passing, magnetise(run, out.coil)), {}, {}};
     each.per_size.resize(each.magnetising_A.size());
-    for (std::size_t k = 0; k < run.sliding.size(); ++k)
+    for (std::size_t k = 0; measured != nullptr && k < run.passing.size(); ++k)
       each.armature_friction_N.push_back(
-          actuator.actuator.friction_N.at(each.magnetising_A[k], run.sliding[k].position_m).value);
+          measured->friction_N.at(each.magnetising_A[k], run.passing[k].position_m).value);
     forces.push_back(std::move(each));
   }
   out.forces = solve_forces(out.layout, priors, out.magnetic_force, forces, out.coil_sizes, {});
+}
+
+/// The coil as a force bench measured it.
+void fit_with_actuator(FlowBenchFit& out, const ForcePriors& priors, const ActuatorFit& actuator,
+                       const std::vector<TrackedRun>& runs) {
+  out.flux_linkage = actuator.flux_linkage;
+  out.coil = actuator.actuator.coil;
+  out.magnetic_force = actuator.actuator.magnetic_force;
+  fit_other_forces(out, priors, runs, &actuator.actuator);
 }
 
 /// Throws CalibrationError where the coil's voltage shows no force.
@@ -219,6 +229,11 @@ void fit_with_coil(FlowBenchFit& out, ForcePriors priors, const std::vector<Trac
     out.magnetic_force = corrected_map(out.layout, coenergy_force, out.forces.unknowns);
     for (std::size_t r = 0; r < runs.size(); ++r) current_A[r] = magnetise(runs[r], out.coil);
   }
+  // Only a spool that slides evenly shows the coil: sticking and slipping would pass for hysteresis.
+  const ForceSolution evenly = std::move(out.forces);
+  fit_other_forces(out, priors, runs, nullptr);
+  out.forces.covariance = evenly.covariance;
+  out.forces.residual_N = std::max(out.forces.residual_N, evenly.residual_N);
 }
 
 }  // namespace

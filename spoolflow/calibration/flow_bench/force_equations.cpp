@@ -19,6 +19,7 @@ constexpr double samples_alike = 10;
 struct Equation {
   Row row;
   double right;
+  double samples;  ///< of which it is the mean
 };
 
 /// Normal equations of rows of few entries.
@@ -72,10 +73,10 @@ void add_layers(Row& row, const ForceLayout& layout, const Layer& layer, const K
 
 Equation equation_of(const ForceLayout& layout, const sensor::MagneticForce<double>& coenergy_force,
                      const RunForces& run, std::size_t k, const CoilSizes& at, const Eigen::VectorXd& before) {
-  const SlidingSample& sample = run.run->sliding[k];
+  const SlidingSample& sample = (*run.samples)[k];
   const double current_A = run.magnetising_A[k], x = sample.position_m, dp_Pa = sample.pressure_difference_Pa;
   const auto force = coenergy_force.at(current_A, x);
-  Equation out{{}, -force.value};
+  Equation out{{}, -force.value, 1};
   out.row.reserve(24);
   const Knots::Place i = layout.currents.at(current_A), p = layout.places.at(x);
   double corrected = 1;
@@ -107,6 +108,46 @@ Equation equation_of(const ForceLayout& layout, const sensor::MagneticForce<doub
   }
   return out;
 }
+
+/// Means of equations over so much travel one way. A slow spool that sticks and slips has the friction of sliding on
+/// the average: what it holds more before a slip, it holds less after it.
+class Means {
+ public:
+  Means(std::vector<Equation>& to, double travel_m, int unknowns)
+      : to_(to), travel_m_(travel_m), sum_(Eigen::VectorXd::Zero(unknowns)) {}
+
+  void add(const Equation& equation, const SlidingSample& sample) {
+    if (sample.direction != direction_ || std::abs(sample.position_m - from_m_) >= travel_m_) {
+      end();
+      direction_ = sample.direction;
+      from_m_ = sample.position_m;
+    }
+    for (const auto& [k, share] : equation.row) {
+      if (sum_(k) == 0) used_.push_back(k);
+      sum_(k) += share;
+    }
+    right_ += equation.right;
+    ++samples_;
+  }
+  void end() {
+    if (samples_ == 0) return;
+    Equation mean{{}, right_ / samples_, samples_};
+    for (const int k : used_) {
+      if (sum_(k) != 0) mean.row.emplace_back(k, sum_(k) / samples_);
+      sum_(k) = 0;
+    }
+    to_.push_back(std::move(mean));
+    used_.clear();
+    right_ = samples_ = 0;
+  }
+
+ private:
+  std::vector<Equation>& to_;
+  double travel_m_;
+  Eigen::VectorXd sum_;
+  std::vector<int> used_;  ///< entries of `sum_`; one whose sum was zero in between stands twice
+  double right_ = 0, samples_ = 0, direction_ = 0, from_m_ = 0;
+};
 
 /// Second differences along a row of unknowns vanish within `bend`.
 template <class At>
@@ -190,10 +231,14 @@ ForceSolution solve_forces(const ForceLayout& layout, const ForcePriors& priors,
                            const sensor::MagneticForce<double>& coenergy_force, const std::vector<RunForces>& runs,
                            const CoilSizes& at, const Eigen::VectorXd& before) {
   std::vector<Equation> all;
-  for (const RunForces& run : runs)
-    for (std::size_t k = 0; k < run.run->sliding.size(); ++k)
-      all.push_back(equation_of(layout, coenergy_force, run, k, at, before));
-  ForceSolution out{before, {}, usual_residual_N, 0, all.size()};
+  Means means(all, priors.mean_travel_m, layout.unknowns());
+  std::size_t samples = 0;
+  for (const RunForces& run : runs) {
+    for (std::size_t k = 0; k < run.samples->size(); ++k, ++samples)
+      means.add(equation_of(layout, coenergy_force, run, k, at, before), (*run.samples)[k]);
+    means.end();
+  }
+  ForceSolution out{before, {}, usual_residual_N, 0, samples};
   constexpr int rounds = 2;  // of weights
   for (int round = before.size() == 0 ? 0 : 1; round < rounds; ++round) {
     Equations equations(layout.unknowns());
@@ -202,7 +247,7 @@ ForceSolution solve_forces(const ForceLayout& layout, const ForcePriors& priors,
     add_measured(equations, layout, priors.measured, deviation_N);
     for (const Equation& each : all) {
       const double away = out.unknowns.size() == 0 ? 0 : deviation_of(each, out.unknowns) / (3 * out.residual_N);
-      equations.add(each.row, each.right, deviation_N * std::sqrt(1 + away * away));
+      equations.add(each.row, each.right, deviation_N * std::sqrt((1 + away * away) / each.samples));
     }
     out.covariance = equations.inverse();
     out.unknowns = out.covariance * equations.right();

@@ -69,6 +69,7 @@ struct ForcePriors {
   CoilSizes coil{}, coil_deviation{};
   std::vector<MeasuredForce> measured{};
   double mass_kg = 0.11;
+  double mean_travel_m = 0;  ///< samples of one way over so much travel count as their mean; 0: each by itself
 };
 
 struct ForceSolution {
@@ -82,6 +83,7 @@ struct ForceSolution {
 /// A run with the magnetising current of its sliding samples, and what the coil's sizes change of it.
 struct RunForces {
   const TrackedRun* run;
+  const std::vector<SlidingSample>* samples;  ///< the run's that count
   std::vector<double> magnetising_A;
   std::vector<std::array<double, coil_sizes>> per_size;
   std::vector<double> armature_friction_N;  ///< where it was measured apart; else empty

@@ -16,6 +16,10 @@ using recording::Channel;
 constexpr double hardest_acceleration_m_per_s2 = 90;
 /// Friction that has grown at rest wears off while the spool slides so far.
 constexpr double wearing_m = 60e-6;
+/// A passage goes on by so much ...
+constexpr double progress_m = 10e-6;
+/// ... within that time: a spool that sticks longer rests.
+constexpr double longest_stick_s = 0.3;
 /// Towards the ends of the stroke the spool meets its stops.
 constexpr double end_stroke_share = 0.015;
 /// One sample of so many seconds counts: neighbours share their noise.
@@ -37,6 +41,35 @@ class Sliding {
 
  private:
   double way_ = 0, from_m_ = 0;
+};
+
+/// How far the spool has gone one way, be it evenly or by sticking and slipping.
+class Passage {
+ public:
+  /// Takes the next position. False where the spool has turned or rests: what came after `went_on()` is no passage.
+  bool goes_on(std::size_t sample, double time_s, double position_m) {
+    const double ahead_m = position_m - last_m_;
+    const bool moved = std::abs(ahead_m) >= progress_m;
+    if (moved && way_ * ahead_m > 0) {
+      went_on_ = sample;
+      last_s_ = time_s;
+      last_m_ = position_m;
+      return true;
+    }
+    if (!moved && time_s < last_s_ + longest_stick_s) return true;
+    way_ = !moved ? 0 : ahead_m > 0 ? 1 : -1;
+    last_s_ = time_s;
+    last_m_ = from_m_ = position_m;
+    return false;
+  }
+  /// Whether friction is that of sliding by now.
+  [[nodiscard]] bool worn() const { return way_ * (last_m_ - from_m_) > wearing_m; }
+  [[nodiscard]] double way() const { return way_; }  ///< 1 opening, -1 closing, 0 neither
+  [[nodiscard]] std::size_t went_on() const { return went_on_; }
+
+ private:
+  double way_ = 0, from_m_ = 0, last_m_ = 0, last_s_ = -INFINITY;
+  std::size_t went_on_ = 0;
 };
 
 SolenoidSamples coil_samples(const recording::Recording& recording, double closed_m) {
@@ -78,7 +111,7 @@ std::vector<double> pressure_difference_Pa(const recording::Recording& recording
 TrackedRun track_run(const recording::Recording& recording, double stroke_m, bool pressurised) {
   const auto position_m = recording[Channel::position];
   TrackedRun out{
-      coil_samples(recording, closed_reading_m(position_m, stroke_m)), mean_oil_temperature_K(recording), {}, 0};
+      coil_samples(recording, closed_reading_m(position_m, stroke_m)), mean_oil_temperature_K(recording), {}, {}, 0};
   const std::vector<double> pressure_Pa = pressurised ? pressure_difference_Pa(recording) : std::vector<double>{};
   const double noise_m = noise_of(position_m);
   const sensor::PositionSensor<double> position_sensor{std::isnan(noise_m) ? 1e-6 : noise_m, 0, 0, 0,
@@ -90,20 +123,26 @@ TrackedRun track_run(const recording::Recording& recording, double stroke_m, boo
   for (const auto& sample : out.coil.samples) largest_A = std::max(largest_A, std::abs(sample.current_A));
   sensor::begin(dither_state, out.coil.samples.empty() ? 0.0 : out.coil.samples.front().current_A);
   Sliding sliding;
+  Passage passage;
   double counted_s = -INFINITY;
   for (std::size_t k = 0; k < out.coil.size(); ++k) {
     const auto& sample = out.coil.samples[k];
     const auto dither = sensor::follow_dither(dither_state, sample.current_A, largest_A, sample.time_step_s);
     const auto point = sensor::track(position_sensor, state, sample, sensor::QuietCoil<double>{}, 0.0, dither, false);
-    const bool worn = sliding.worn(point) && !point.fault && !dither.present;
+    const bool evenly = sliding.worn(point);
+    if (!passage.goes_on(k, out.coil.time_s[k], point.position_m)) {
+      while (!out.passing.empty() && out.passing.back().sample > passage.went_on()) out.passing.pop_back();
+    }
     const double end_m = end_stroke_share * stroke_m;
-    if (!worn || point.position_m < end_m || point.position_m > stroke_m - end_m) continue;
-    if (out.coil.time_s[k] < counted_s + counted_every_s) continue;
+    if (point.fault || dither.present || point.position_m < end_m || point.position_m > stroke_m - end_m) continue;
+    if (!(evenly || passage.worn()) || out.coil.time_s[k] < counted_s + counted_every_s) continue;
     const double dp_Pa = pressure_Pa.empty() ? 0.0 : pressure_Pa[k];
     if (std::isnan(dp_Pa)) continue;
     counted_s = out.coil.time_s[k];
-    out.sliding.push_back({k, point.position_m, point.motion == sensor::Motion::opening ? 1.0 : -1.0,
-                           point.acceleration_m_per_s2, dp_Pa});
+    SlidingSample counted{k, point.position_m, passage.way(), point.acceleration_m_per_s2, dp_Pa};
+    if (passage.worn()) out.passing.push_back(counted);
+    counted.direction = point.motion == sensor::Motion::opening ? 1.0 : -1.0;
+    if (evenly) out.sliding.push_back(counted);
   }
   return out;
 }

@@ -7,7 +7,7 @@
 
 namespace spoolflow::calibration {
 
-/// A sample in which the spool slides evenly, without dither: friction has its full size and its sign is known.
+/// A sample in which the spool slides, without dither: friction has its full size and its sign is known.
 struct SlidingSample {
   std::size_t sample;
   double position_m;  ///< the closed spool reads zero
@@ -20,8 +20,9 @@ struct TrackedRun {
   SolenoidSamples coil;      ///< without force; current and voltage as means over the step, the closed spool reads zero
   double oil_temperature_K;  ///< mean; NaN where it was not recorded
   std::vector<SlidingSample>
-      sliding;   ///< some of each millisecond's, away from the ends of the stroke and from reversals
-  int edge = 0;  ///< 1: of the outlet alone
+      sliding;  ///< evenly: some of each millisecond's, away from the ends of the stroke and from reversals
+  std::vector<SlidingSample> passing;  ///< the same of a spool that goes one way evenly or by sticking and slipping
+  int edge = 0;                        ///< 1: of the outlet alone
 };
 
 /// Position by the sensor's own track. `pressurised` is false for strokes with the pump off: whatever was measured of a

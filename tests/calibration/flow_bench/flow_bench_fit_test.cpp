@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "spoolflow/calibration/fits/actuator_fit.hpp"
 #include "spoolflow/calibration/flow_bench/coenergy.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 
@@ -29,18 +30,35 @@ double friction_at(double x, double pressure_Pa) {
   return 2.0 + 3e-4 * x * pressure_Pa;
 }
 
-/// Strokes both ways at each pressure difference, a rest at either end; of an edge with `flow_force_share` of the flow
-/// force.
-recording::Recording strokes(const std::vector<double>& pressures_Pa, bool with_voltage, double flow_force_share = 1) {
+struct StrokesLike {
+  double flow_force_share = 1;        ///< of an edge with so much of the flow force
+  double sticks_above_Pa = INFINITY;  ///< from there on the spool does not slide evenly, but sticks and slips
+};
+
+/// Where a spool that sticks and slips by `slip_m` each time stands on its way to `x`, and what friction then exceeds
+/// that of sliding by: it rises while the spool sticks, and falls as it slips.
+std::pair<double, double> sticking_at(double x, double direction) {
+  constexpr double slip_m = 30e-6, swing_N = 1.5, stick_share = 0.8;
+  const double slips = (direction > 0 ? x : driven_stroke_m - x) / slip_m;
+  const double since = slips - std::floor(slips);  // the last slip
+  const double slipped = std::fmax(0.0, (since - stick_share) / (1 - stick_share));
+  const double swing = since < stick_share ? since / stick_share : 1 - slipped;
+  return {x - direction * (since - slipped) * slip_m, swing_N * (2 * swing - 1)};
+}
+
+/// Strokes both ways at each pressure difference, a rest at either end.
+recording::Recording strokes(const std::vector<double>& pressures_Pa, bool with_voltage, StrokesLike like = {}) {
   constexpr double sampling_s = 2e-3, stroke_s = 3;
   recording::Recording out;
   out.file = "strokes.csv";
   std::mt19937 generator(3);
   std::normal_distribution<double> unit(0, 1);
   double flux_Wb = 0, time_s = 0;
-  const auto put = [&](double x, double direction, double pressure_Pa) {
-    const double force_N =
-        spring_at(x) + flow_force_share * flow_force_at(x, pressure_Pa) + direction * friction_at(x, pressure_Pa);
+  const auto put = [&](double on_the_way_m, double direction, double pressure_Pa) {
+    const bool sticks = pressure_Pa > like.sticks_above_Pa && direction != 0;
+    const auto [x, more_N] = sticks ? sticking_at(on_the_way_m, direction) : std::pair{on_the_way_m, 0.0};
+    const double force_N = spring_at(x) + like.flow_force_share * flow_force_at(x, pressure_Pa) +
+                           direction * (friction_at(x, pressure_Pa) + more_N);
     const double current_A = direction == 0 ? 0 : std::sqrt(force_N / force_per_A2);
     const double now_Wb = current_A * (inductance_H + inductance_per_m * x);
     out.column(Channel::time).push_back(time_s += sampling_s);
@@ -104,9 +122,65 @@ TEST(FlowBenchFit, FindsTheForcesInNewtonsFromVoltageAndMotionAlone) {
   EXPECT_NEAR(fit.flux_linkage.coil_resistance.resistance_Ohm, resistance_Ohm, 0.03);
 }
 
+/// The closed form's solenoid as force benches measure it.
+ActuatorFit measured_actuator() {
+  constexpr double largest_A = 3;
+  ActuatorFit out{};
+  sensor::ActuatorParameters<double>& actuator = out.actuator;
+  const auto stretch = [](auto& map, double rows, double columns) {
+    map.row_axis = {0, rows, 1 / rows};
+    map.column_axis = {0, columns, 1 / columns};
+  };
+  auto& force = actuator.magnetic_force.map;
+  stretch(force, largest_A / (sensor::force_map_currents - 1), driven_stroke_m / (sensor::force_map_positions - 1));
+  actuator.friction_N = force;
+  for (int row = 0; row < sensor::force_map_currents; ++row) {
+    for (int column = 0; column < sensor::force_map_positions; ++column)
+      force.node(row, column) = force_per_A2 * force.row_axis.at(row) * force.row_axis.at(row);
+  }
+  auto& flux = actuator.coil.flux_linkage.map;
+  stretch(flux, largest_A / (sensor::flux_map_currents - 1), driven_stroke_m / (sensor::flux_map_positions - 1));
+  for (int row = 0; row < sensor::flux_map_currents; ++row) {
+    for (int column = 0; column < sensor::flux_map_positions; ++column)
+      flux.node(row, column) = flux.row_axis.at(row) * (inductance_H + inductance_per_m * flux.column_axis.at(column));
+  }
+  actuator.coil.hysteresis = default_hysteresis(0, 0.4);
+  return out;
+}
+
+/// Slow strokes under pressure creep by sticking and slipping on many valves.
+TEST(FlowBenchFit, ASpoolThatSticksAndSlipsShowsTheFrictionOfSlidingOnTheAverage) {
+  const recording::Recording dry = strokes({0, 0}, true);
+  const recording::Recording metering = strokes({5e5, 2e6, 4e6, 6e6}, true, {.sticks_above_Pa = 1e5});
+  EXPECT_LT(track_run(metering, driven_stroke_m, true).sliding.size(), 100U);
+  MeasuredForces measured;
+  measured.actuator = measured_actuator();
+  const FlowBenchFit fit = fit_flow_bench({{&dry}, {&metering}, {}}, measured, driven_stroke_m);
+  const ForceLayout& layout = fit.layout;
+  for (const int k : {3, 5, 7}) {
+    const double x = driven_stroke_m * k / (layout.loaded.count - 1);
+    EXPECT_NEAR(fit.forces.unknowns(layout.loaded_at(0, k)), 1e5 * 3e-4 * x, 0.1 * 1e5 * 3e-4 * x) << x;
+    EXPECT_NEAR(fit.forces.unknowns(layout.force_at(0, 4 * k)), 1e5 * flow_force_at(x, 1),
+                0.05 * 1e5 * flow_force_at(x, 1))
+        << x;
+  }
+}
+
+TEST(FlowBenchFit, ASpoolThatIsHeldOnItsWayDoesNotPass) {
+  recording::Recording run = strokes({4e6}, true);
+  constexpr std::size_t middle = 600;                  // on the way to open, ...
+  for (std::size_t k = middle; k < middle + 500; ++k)  // ... for a second
+    run.column(Channel::position)[k] =
+        run.column(Channel::position)[middle] + 1e-6 * std::sin(2.0 * static_cast<double>(k));
+  const std::vector<SlidingSample> passing = track_run(run, driven_stroke_m, true).passing;
+  EXPECT_GT(passing.size(), 500U);
+  for (const SlidingSample& each : passing) EXPECT_FALSE(each.sample > middle + 20 && each.sample < middle + 500);
+}
+
 TEST(FlowBenchFit, GivesEachEdgeThatIsMeteredAloneItsOwnFlowForce) {
   const recording::Recording dry = strokes({0, 0}, true);
-  const recording::Recording inlet = strokes({5e5, 2e6, 4e6, 6e6}, true), outlet = strokes({5e5, 3e6, 6e6}, true, 0.6);
+  const recording::Recording inlet = strokes({5e5, 2e6, 4e6, 6e6}, true),
+                             outlet = strokes({5e5, 3e6, 6e6}, true, {.flow_force_share = 0.6});
   const FlowBenchFit fit = fit_flow_bench({{&dry}, {&inlet}, {}, {&outlet}}, {}, driven_stroke_m);
   const ForceLayout& layout = fit.layout;
   ASSERT_EQ(layout.layers(), 2);
@@ -165,7 +239,7 @@ TEST(FlowBenchFit, TakesTheScaleOfAllForcesFromOneThatWasMeasured) {
     const double x = driven_stroke_m * k / (fit.layout.force.count - 1);
     for (const int layer : {0, 1})
       EXPECT_NEAR(fit.forces.unknowns(fit.layout.force_at(layer, k)), factor * 1e5 * flow_force_at(x, 1),
-                  0.05 * 1e5 * flow_force_at(x, 1))
+                  0.06 * 1e5 * flow_force_at(x, 1))
           << layer << ", " << x;
     const double current_A = std::sqrt(spring_at(x) / force_per_A2);
     EXPECT_NEAR(fit.magnetic_force.at(current_A, x).value, factor * spring_at(x), 0.03 * spring_at(x)) << x;
@@ -198,7 +272,7 @@ TEST(FlowBenchFit, RefusesAValveThatHardlyMoves) {
     (void)fit_flow_bench({{&still}, {&still}, {}}, {}, driven_stroke_m);
     FAIL() << "no refusal";
   } catch (const CalibrationError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("slides evenly in 0 samples only"));
+    EXPECT_THAT(error.what(), HasSubstr("slides in 0 samples only"));
   }
 }
 
