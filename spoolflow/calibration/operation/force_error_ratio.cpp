@@ -30,8 +30,10 @@ void scale_band(sensor::ObserverParameters<double>& parameters, double force_err
   constexpr double sliding = 1.08;
   constexpr double resting = 1.43;
   constexpr double tolerance = 0.55;
-  parameters.band.force_share = sliding * force_error_ratio;
-  parameters.band.rest_share = resting * force_error_ratio;
+  // The ratio is found at rest, where a larger tolerance of friction than valves have hides errors of forces.
+  const double hidden = std::max(1.0, parameters.friction.tolerance_N / largest_usual_tolerance_N);
+  parameters.band.force_share = sliding * hidden * force_error_ratio;
+  parameters.band.rest_share = resting * hidden * force_error_ratio;
   parameters.band.tolerance_N = tolerance * force_error_ratio * parameters.friction.tolerance_N;
 }
 

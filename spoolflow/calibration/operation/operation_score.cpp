@@ -31,7 +31,7 @@ std::vector<OperationParameter> operation_parameters() {
        [](OperationTrial& trial) -> double& { return trial.parameters().friction.contact_stiffness_N_per_m; }, 5e5, 5e7,
        rest},
       {"friction_tolerance_N", [](OperationTrial& trial) -> double& { return trial.parameters().friction.tolerance_N; },
-       0.3, 1.5, rest},
+       0.3, 2.5, rest},
       {"breakaway_share", [](OperationTrial& trial) -> double& { return trial.parameters().friction.breakaway_share; },
        0.05, 0.4, rest},
       {"band_friction_share", [](OperationTrial& trial) -> double& { return trial.parameters().band.friction_share; },
