@@ -1,7 +1,7 @@
 #!/bin/sh
 # ci/long.sh [SECONDS]: what takes too long for every day, over what ./test has built: clang-tidy, the rig and calibration under
 # sanitizers, RISC-V, `live` killed at fifty instants, its parsers fuzzed for SECONDS each (an hour where none are given), fleets
-# whose parts are killed, 500 valves at 1 kHz for as long, the page of 200, and 200 units of a type. Prints figures and, at the end,
+# whose parts are killed, 500 valves at 1 kHz for as long, the page of 200, the playground's build, and 200 units of a type. Prints figures and, at the end,
 # its time; the exit status covers clang-tidy, sanitizers, kills, fleets, fuzzing, the page and the type's bands.
 set -eu
 cd "$(dirname "$(readlink -f "$0")")/.."
@@ -32,6 +32,8 @@ build/release/bench/live_load build/release/bin/spoolflow examples/live/size_6.j
 echo "== the page of 200 valves"
 tests/web/live_for_long.sh build/release/tests/web/page build/release/bench/live_load build/release/bin/spoolflow examples/live/size_6.json 200 \
   "$seconds" || status=1
+echo "== the playground"
+addons/playground/wasm/build.sh build/playground_page || status=1
 echo "== 200 units of a type"
 ci/series.sh || status=1
 echo "== $((($(date +%s) - begin) / 60)) minutes, status $status"

@@ -46,6 +46,7 @@ bare() { # DIR
   # The way to the package archives, and only that, is this machine's.
   cp -L /etc/resolv.conf "$1/etc/resolv.conf" 2>/dev/null || true
   cp /etc/apt/apt.conf.d/*prox* /etc/apt/apt.conf "$1/etc/apt/apt.conf.d/" 2>/dev/null || true
+  cp -L /etc/ssl/certs/ca-certificates.crt "$1/etc/ssl/certs/" 2>/dev/null && echo "cafile=/etc/ssl/certs/ca-certificates.crt" >"$1/root/.npmrc" || true
 }
 # Runs a command in a root, with a bare environment.
 inside() { # DIR COMMAND…

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -12,6 +11,7 @@
 
 #include "spoolflow/recording/channels/allowed_names.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/files/decimal_number.hpp"
 #include "spoolflow/recording/toml_input.hpp"
 #include "spoolflow/units/conversion.hpp"
 
@@ -52,21 +52,15 @@ double number_within(const TomlTable& table, const char* key, const Range& range
 
 /// Numbers of one line between commas, semicolons, tabs or blanks. Throws RecordingError with the line.
 std::vector<double> numbers_of(const std::string& line, const std::string& place) {
+  constexpr const char* between = ",; \t\r";
   std::vector<double> out;
-  const char *at = line.data(), *end = at + line.size();
-  while (at != end) {
-    if (std::string_view(",; \t\r").find(*at) != std::string_view::npos) {
-      ++at;
-      continue;
-    }
-    double value = 0;
-    const auto [after, failure] = std::from_chars(at, end, value);
-    if (failure != std::errc() || !std::isfinite(value)) {
+  for (std::size_t at = line.find_first_not_of(between); at != std::string::npos;) {
+    const std::size_t after = line.find_first_of(between, at);
+    if (read_number(line.substr(at, after - at), '.', out.emplace_back()) != Digits::number) {
       throw RecordingError(fmt::format("{}: \"{}\" is no row of marks; a row is begin_s, end_s and of a pump speed_rpm",
                                        place, line.substr(0, 60)));
     }
-    out.push_back(value);
-    at = after;
+    at = line.find_first_not_of(between, after);
   }
   return out;
 }

@@ -121,6 +121,34 @@ template <class Range, class Compare = less, class Projection = identity>
 void stable_sort(Range&& range, Compare compare = {}, Projection projection = {}) {
   std::stable_sort(ranges::begin(range), ranges::end(range), spoolflow_missing::of_both(compare, projection));
 }
+template <class Range, class Value, class Compare = less, class Projection = identity>
+auto lower_bound(Range&& range, const Value& value, Compare compare = {}, Projection projection = {}) {
+  return std::lower_bound(ranges::begin(range), ranges::end(range), value, [&](auto&& element, const Value& sought) {
+    return std::invoke(compare, std::invoke(projection, element), sought);
+  });
+}
+template <class Place, class Value, class Compare, class Projection>
+auto upper_bound_between(Place first, Place last, const Value& value, Compare compare, Projection projection) {
+  return std::upper_bound(first, last, value, [&](const Value& sought, auto&& element) {
+    return std::invoke(compare, sought, std::invoke(projection, element));
+  });
+}
+template <range Range, class Value, class Compare = less, class Projection = identity>
+auto upper_bound(Range&& range, const Value& value, Compare compare = {}, Projection projection = {}) {
+  return upper_bound_between(ranges::begin(range), ranges::end(range), value, compare, projection);
+}
+template <input_iterator Place, class Value>
+auto upper_bound(Place first, Place last, const Value& value) {
+  return upper_bound_between(first, last, value, less{}, identity{});
+}
+template <class Range, class Out>
+void move(Range&& range, Out out) {
+  std::move(ranges::begin(range), ranges::end(range), out);
+}
+template <class Range, class Value>
+void replace(Range&& range, const Value& before, const Value& after) {
+  std::replace(ranges::begin(range), ranges::end(range), before, after);
+}
 template <class Range, class Place, class Compare = less, class Projection = identity>
 void nth_element(Range&& range, Place nth, Compare compare = {}, Projection projection = {}) {
   std::nth_element(ranges::begin(range), nth, ranges::end(range), spoolflow_missing::of_both(compare, projection));
