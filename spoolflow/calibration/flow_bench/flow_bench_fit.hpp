@@ -1,7 +1,8 @@
 #pragma once
 /// All forces of a valve from its flow bench alone: current, voltage, position, oil temperature, pressure difference.
 /// The coil's voltage gives the flux linkage, its coenergy the size and the shape of the magnetic force
-/// (coenergy.hpp); sliding samples give the rest (force_equations.hpp).
+/// (coenergy.hpp); samples in which the spool slides evenly give the coil, all those of its passages the other forces
+/// (force_equations.hpp).
 #include "spoolflow/calibration/flow_bench/flow_bench_recordings.hpp"
 #include "spoolflow/calibration/flow_bench/force_equations.hpp"
 
