@@ -10,7 +10,7 @@ namespace spoolflow::calibration {
 
 /// Without an operating recording: wider than any of the valves that were tried needs (docs/accuracy.md).
 inline constexpr double assumed_force_error_ratio = 2;
-/// Friction's tolerance of eleven of twelve calibrated valves of the rig, and of valve A, is 0.8 to 1.4 N.
+/// Eleven of twelve models of rig valves, and valve A's, have tolerances of friction at rest from 0.8 to 1.4 N.
 inline constexpr double largest_usual_tolerance_N = 1.4;
 
 /// One run may agree better with the benches than others will.
