@@ -17,14 +17,20 @@ done
 cd "$folder"
 for part in export/c_interface/sensor_functions export/c_interface/status_text model/json_limits model/json_node \
   model/model_limits model/read_model estimation/running_sensor; do
-  x86_64-w64-mingw32-g++-posix -std=c++20 -O2 -Wall -Wextra -Werror -DSPOOLFLOW_BUILDS_DLL -DFMT_HEADER_ONLY \
+  x86_64-w64-mingw32-g++-posix -std=c++20 -O2 -Wall -Wextra -Werror -DSPOOLFLOW_BUILDS_DLL -DFMT_HEADER_ONLY "-ffile-prefix-map=$root=." \
     "-DSPOOLFLOW_BUILT_VERSION=\"$version\"" -I"$root" -isystem headers -c "$root/spoolflow/$part.cpp" -o "$(basename $part).o"
 done
-x86_64-w64-mingw32-g++-posix -shared -s -static ./*.o -o "$made/bin/spoolflow.dll" \
-  "-Wl,--out-implib,$made/lib/libspoolflow.dll.a,--output-def,$made/lib/spoolflow.def"
+x86_64-w64-mingw32-g++-posix -shared -s -static ./*.o -o "$name/bin/spoolflow.dll" \
+  "-Wl,--out-implib,$name/lib/libspoolflow.dll.a,--output-def,$name/lib/spoolflow.def"
 cp "$root/spoolflow/export/c_interface/spoolflow.h" "$made/include/"
 cp "$root/examples/c_interface/estimate.c" "$made/examples/"
 cp "$root/LICENSE" "$made/LICENSE.txt"
 cp "$root/NOTICE" "$made/NOTICE.txt"
 rm -f "$out"
-cmake -E tar cf "$out" --format=zip "$name"
+/usr/bin/python3 - "$out" "$name" "${SOURCE_DATE_EPOCH:-$(date +%s)}" <<'PYTHON'
+import pathlib, sys, time, zipfile
+out, name, epoch = sys.argv[1:]
+with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
+    for file in sorted(path for path in pathlib.Path(name).rglob("*") if path.is_file()):
+        archive.writestr(zipfile.ZipInfo(str(file), time.gmtime(int(epoch))[:6]), file.read_bytes(), zipfile.ZIP_DEFLATED)
+PYTHON
