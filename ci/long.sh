@@ -1,8 +1,9 @@
 #!/bin/sh
 # ci/long.sh [SECONDS]: what takes too long for every day, over what ./test has built: clang-tidy, the rig and calibration under
 # sanitizers, RISC-V, `live` killed at fifty instants, its parsers fuzzed for SECONDS each (an hour where none are given), fleets
-# whose parts are killed, 500 valves at 1 kHz for as long, the page of 200, the playground's build, and 200 units of a type. Prints figures and, at the end,
-# its time; the exit status covers clang-tidy, sanitizers, kills, fleets, fuzzing, the page and the type's bands.
+# whose parts are killed, 500 valves at 1 kHz for as long, the page of 200, the playground's build, and 200 units of a type.
+# Prints figures and, at the end, its time; the exit status covers clang-tidy, sanitizers, kills, fleets, fuzzing, the page, the
+# playground and the type's bands.
 set -eu
 cd "$(dirname "$(readlink -f "$0")")/.."
 seconds=${1:-3600}
