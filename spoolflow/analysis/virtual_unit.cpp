@@ -28,6 +28,7 @@ Measured measured(const SeriesPlan& plan, const rig::ValveAndCampaign& unit) {
   const rig::ValveUnderTest valve = rig::as_built(unit.valve);
   std::vector<rig::ValveUnderTest> valves{valve};
   std::vector<rig::BenchRun> runs{rig::plan(plan.minute, valve, plan.seed)};
+  runs.front().valve_dithers = false;  // it would hide the forces
   for (std::size_t run = 0; run < series_runs; ++run) {
     const bool dithers = series_run_names[run] == std::string_view("dithered_duty");
     valves.push_back(dithers ? rig::dithered(valve, unit.campaign) : valve);

@@ -44,7 +44,8 @@ std::string pressures_bar(const calibration::PlannedMinute& minute) {
 void write_scenario(std::ostream& out, const calibration::PlannedMinute& minute, const std::string& valve) {
   out << fmt::format(
       "# The planned strokes of a unit, for the virtual rig.\nprotocol = \"ramps\"\nvalve = \"{}\"\n\n[run]\n"
-      "pressure_differences_bar = [{}]\nrate_percent_per_s = {:g}\nhold_s = {:g}\npause_s = {:g}\n",
+      "pressure_differences_bar = [{}]\nrate_percent_per_s = {:g}\nhold_s = {:g}\npause_s = "
+      "{:g}\n\n[electronics.dither]\namplitude_A = 0\n",
       valve, pressures_bar(minute), per_cent * minute.rate_per_s, calibration::planned_hold_s,
       calibration::planned_pause_s);
 }

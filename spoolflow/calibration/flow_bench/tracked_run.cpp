@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "spoolflow/calibration/fits/bench_strokes.hpp"
+#include "spoolflow/calibration/fits/passage.hpp"
 #include "spoolflow/calibration/fits/position_sensor.hpp"
 #include "spoolflow/sensor/signals/dither.hpp"
 #include "spoolflow/sensor/signals/position_track.hpp"
@@ -14,12 +15,6 @@ namespace {
 using recording::Channel;
 
 constexpr double hardest_acceleration_m_per_s2 = 90;
-/// Friction that has grown at rest wears off while the spool slides so far.
-constexpr double wearing_m = 60e-6;
-/// A passage goes on by so much ...
-constexpr double progress_m = 10e-6;
-/// ... within that time: a spool that sticks longer rests.
-constexpr double longest_stick_s = 0.3;
 /// Towards the ends of the stroke the spool meets its stops.
 constexpr double end_stroke_share = 0.015;
 /// One sample of so many seconds counts: neighbours share their noise.
@@ -41,35 +36,6 @@ class Sliding {
 
  private:
   double way_ = 0, from_m_ = 0;
-};
-
-/// How far the spool has gone one way, be it evenly or by sticking and slipping.
-class Passage {
- public:
-  /// Takes the next position. False where the spool has turned or rests: what came after `went_on()` is no passage.
-  bool goes_on(std::size_t sample, double time_s, double position_m) {
-    const double ahead_m = position_m - last_m_;
-    const bool moved = std::abs(ahead_m) >= progress_m;
-    if (moved && way_ * ahead_m > 0) {
-      went_on_ = sample;
-      last_s_ = time_s;
-      last_m_ = position_m;
-      return true;
-    }
-    if (!moved && time_s < last_s_ + longest_stick_s) return true;
-    way_ = !moved ? 0 : ahead_m > 0 ? 1 : -1;
-    last_s_ = time_s;
-    last_m_ = from_m_ = position_m;
-    return false;
-  }
-  /// Whether friction is that of sliding by now.
-  [[nodiscard]] bool worn() const { return way_ * (last_m_ - from_m_) > wearing_m; }
-  [[nodiscard]] double way() const { return way_; }  ///< 1 opening, -1 closing, 0 neither
-  [[nodiscard]] std::size_t went_on() const { return went_on_; }
-
- private:
-  double way_ = 0, from_m_ = 0, last_m_ = 0, last_s_ = -INFINITY;
-  std::size_t went_on_ = 0;
 };
 
 SolenoidSamples coil_samples(const recording::Recording& recording, double closed_m) {

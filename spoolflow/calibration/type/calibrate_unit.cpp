@@ -82,7 +82,7 @@ void require_evidence(const UnitEvidence& evidence, const std::string& file) {
     return;
   throw CalibrationError(fmt::format(
       "{}: the recordings show no forces and no flow of the unit; record unpressurised_strokes, or operation with "
-      "pressure_difference or flow_reference, in which the spool moves over its stroke",
+      "pressure_difference or flow_reference, in which the spool moves over its stroke with the dither off",
       file));
 }
 

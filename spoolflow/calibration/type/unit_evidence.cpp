@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
+#include "spoolflow/calibration/fits/passage.hpp"
 #include "spoolflow/calibration/operation/replay.hpp"
 #include "spoolflow/calibration/type/unit_parameters.hpp"
 #include "spoolflow/numerics/median.hpp"
@@ -13,8 +15,6 @@ namespace {
 
 using recording::Channel;
 
-/// Of even motion one way until friction has its full size [m].
-constexpr double settling_travel_m = 4e-5;
 /// A shorter rest [s] is part of a motion.
 constexpr double least_rest_s = 0.05;
 /// Of the force at which a spool breaks away, beside that of forces [N].
@@ -26,44 +26,68 @@ double value_or(const recording::Recording& recording, Channel channel, std::siz
   return std::isfinite(value) ? value : otherwise;
 }
 
+/// Of even motion one way until friction has its full size [m].
+constexpr double settling_travel_m = 4e-5;
+
 /// What the spool does at a sample.
 struct Doing {
-  int direction;         ///< of even motion: 1 opening, -1 closing, else 0
-  bool slides;           ///< friction has its full size, away from both stops
+  int direction;         ///< 1 opening, -1 closing, else 0
+  bool slides;           ///< friction has its full size away from both stops: in the mean, if it sticks and slips
   bool metered;          ///< slow enough for a flow meter, the edge open
   double broke_after_s;  ///< > 0: it broke away after this rest
 };
 
-/// Finds it from the state of the type's sensor, sample by sample.
+/// Finds it from the state of the type's sensor, sample by sample. Under pressure every passage counts, evenly or by
+/// sticking and slipping; without, even motion alone: slips drive the iron through small loops there, which the
+/// sensor's loop makes too wide, and beside which friction is small.
 class SpoolTrack {
  public:
-  explicit SpoolTrack(const model::Model& type) : type_(type) {}
+  SpoolTrack(const model::Model& type, bool pressurised) : type_(type), pressurised_(pressurised) {}
 
   Doing next(const sensor::ObserverState<double>& state, sensor::Status status, const sensor::Sample<double>& sample,
              double position_m) {
     const sensor::Motion motion = state.position.motion;
-    const int now = motion == sensor::Motion::opening ? 1 : motion == sensor::Motion::closing ? -1 : 0;
     const bool usable = sensor::unusable(sample) == sensor::Status::none &&
                         !sensor::has(status, sensor::Status::dithered | sensor::Status::position_fault);
-    travelled_m_ = now == direction_ && usable ? travelled_m_ + now * (position_m - position_m_) : 0;
-    direction_ = now;
-    position_m_ = position_m;
     const double speed_m_per_s = std::abs(state.position.velocity_m_per_s), stroke_m = type_.valve.stroke_m;
-    Doing out{now, false, false, 0};
     const bool between_ends = position_m > end_share * stroke_m && position_m < (1 - end_share) * stroke_m;
-    out.slides =
-        now != 0 && travelled_m_ > settling_travel_m && speed_m_per_s < fastest_sliding_m_per_s && between_ends;
+    const bool full =
+        pressurised_ ? passes(usable, sample.time_step_s, position_m) : moves_evenly(usable, motion, position_m);
+    Doing out{pressurised_ ? static_cast<int>(passage_.way()) : direction_, false, false, 0};
+    out.slides = usable && full && speed_m_per_s < fastest_sliding_m_per_s && between_ends;
     out.metered = usable && speed_m_per_s < fastest_metered_m_per_s && between_ends &&
                   position_m > type_.observer->parameters.closed_below_m;
     if (usable && rested_s_ > least_rest_s && motion != sensor::Motion::rest) out.broke_after_s = rested_s_;
     rested_s_ = motion == sensor::Motion::rest ? state.friction.rest_s : 0;
+    ++sample_;
     return out;
   }
+  /// Where the last passage went on; what came after is none where it `ended()`.
+  [[nodiscard]] std::size_t went_on() const { return passage_.went_on(); }
+  [[nodiscard]] bool ended() const { return ended_; }
 
  private:
+  bool passes(bool usable, double step_s, double position_m) {
+    time_s_ += step_s;
+    if (!usable) passage_.begin(time_s_, position_m, 0);
+    ended_ = !usable || !passage_.goes_on(sample_, time_s_, position_m);
+    return passage_.worn();
+  }
+  bool moves_evenly(bool usable, sensor::Motion motion, double position_m) {
+    const int now = motion == sensor::Motion::opening ? 1 : motion == sensor::Motion::closing ? -1 : 0;
+    travelled_m_ = now == direction_ && usable ? travelled_m_ + now * (position_m - position_m_) : 0;
+    direction_ = now;
+    position_m_ = position_m;
+    return now != 0 && travelled_m_ > settling_travel_m;
+  }
+
   const model::Model& type_;
+  bool pressurised_;
+  Passage passage_;
+  std::size_t sample_ = 0;
+  bool ended_ = false;
   int direction_ = 0;
-  double travelled_m_ = 0, position_m_ = NAN, rested_s_ = 0;
+  double time_s_ = 0, travelled_m_ = 0, position_m_ = NAN, rested_s_ = 0;
 };
 
 }  // namespace
@@ -99,7 +123,8 @@ void UnitEvidence::prepare(const UnitRun& of) {
   run.has_flow = run.pressurised && recording.has(Channel::flow_reference);
   estimation::RunningSensor sensor(&type, type_.valve.rated_flow_m3_per_s);
   const estimation::Columns columns = operating_columns(recording);
-  SpoolTrack track(type_);
+  SpoolTrack track(type_, run.pressurised);
+  std::size_t ended = 0;  // the last passage
   double before_s = columns.time_s.empty() ? 0 : columns.time_s[0];
   estimation::run(sensor, columns, [&](std::size_t k, const sensor::Estimate<double>& estimate) {
     const sensor::ObserverState<double>& state = sensor.state().observer;
@@ -113,6 +138,12 @@ void UnitEvidence::prepare(const UnitRun& of) {
         {position_m, current_A, step_s, run.pressurised ? value_or(recording, Channel::pressure_difference, k, NAN) : 0,
          value_or(recording, Channel::flow_reference, k, NAN), state.oil.temperature_K, doing.slides ? 0 : -1,
          doing.metered && run.has_flow ? 0 : -1, static_cast<signed char>(doing.direction)});
+    if (track.ended()) {
+      for (std::size_t back = std::max(track.went_on(), ended) + 1; back <= k; ++back) {
+        if (run.samples[back].rested_s == 0) run.samples[back].force_row = -1;
+      }
+      ended = k;
+    }
     if (doing.broke_after_s > 0) add_breakaway(run, k, doing.broke_after_s, state.position.travel_m);
   });
   if (run.has_flow && run.has_pressure) run.meter = meter_of(run, recording);
@@ -160,12 +191,12 @@ void UnitEvidence::add_breakaway(Run& run, std::size_t sample, double rested_s, 
 /// Numbers the rows, one after the other.
 void UnitEvidence::find_rows(Run& run) {
   const double force_N = force_row_uncertainty_N(type_), flow_m3_per_s = flow_row_uncertainty_m3_per_s(type_);
-  const auto number = [&](int Sample::*row, EvidenceOf kind, double deviation) {
+  const auto number = [&](int Sample::*row, EvidenceOf kind, double deviation, const auto& others) {
     int open = -1, direction = 0;
     double from_m = 0, lasted_s = 0;
     std::size_t first = 0;
     const auto close = [&](std::size_t end) {
-      if (open >= 0 && kind == EvidenceOf::flow && lasted_s < least_flow_row_s) {
+      if (open >= 0 && kind != EvidenceOf::breakaway && lasted_s < least_row_s) {
         for (std::size_t k = first; k < end; ++k) run.samples[k].*row = -1;
         kinds_.pop_back();
         counts_.pop_back();
@@ -175,16 +206,19 @@ void UnitEvidence::find_rows(Run& run) {
     };
     for (std::size_t k = 0; k < run.samples.size(); ++k) {
       Sample& sample = run.samples[k];
+      if (others(sample)) {
+        lasted_s += sample.time_step_s;
+        continue;
+      }
       const bool turned = kind != EvidenceOf::flow && sample.direction != direction;  // flow knows no direction
       if (sample.*row < 0 || std::abs(sample.position_m - from_m) > row_travel_m || lasted_s > row_time_s || turned)
         close(k);
       if (sample.*row < 0) continue;
       if (open < 0) {
         open = static_cast<int>(kinds_.size());
-        const bool breaks = kind != EvidenceOf::flow && sample.rested_s > 0;
-        kinds_.push_back(breaks ? EvidenceOf::breakaway : kind);
+        kinds_.push_back(kind);
         counts_.push_back(0);
-        deviations_.push_back(breaks ? std::hypot(deviation, breakaway_uncertainty_N) : deviation);
+        deviations_.push_back(deviation);
         from_m = sample.position_m;
         lasted_s = 0;
         direction = sample.direction;
@@ -205,8 +239,12 @@ void UnitEvidence::find_rows(Run& run) {
     if (!run.has_pressure && run.pressurised && !(sample.flow_m3_per_s > 0.01 * type_.valve.rated_flow_m3_per_s))
       sample.force_row = -1;
   }
-  number(&Sample::force_row, run.pressurised ? EvidenceOf::force : EvidenceOf::unpressurised_force, force_N);
-  number(&Sample::flow_row, EvidenceOf::flow, flow_m3_per_s);
+  const auto breaks_away = [](const Sample& sample) { return sample.rested_s > 0; };
+  number(&Sample::force_row, run.pressurised ? EvidenceOf::force : EvidenceOf::unpressurised_force, force_N,
+         breaks_away);
+  number(&Sample::force_row, EvidenceOf::breakaway, std::hypot(force_N, breakaway_uncertainty_N),
+         std::not_fn(breaks_away));
+  number(&Sample::flow_row, EvidenceOf::flow, flow_m3_per_s, [](const Sample&) { return false; });
 }
 
 /// Where the spool rests at its closed end without current; readings of the unit in the type's drift.

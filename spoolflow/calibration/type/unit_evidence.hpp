@@ -51,8 +51,9 @@ inline constexpr double row_travel_m = 1e-4, row_time_s = 0.5;
 inline constexpr double fastest_sliding_m_per_s = 0.03;
 /// ... faster than that no row of flow, which would show the meter's lag rather than the edge.
 inline constexpr double fastest_metered_m_per_s = 2e-3;
-/// A shorter row [s] is no row of flow either: a spool that slips shows the meter's lag before its speed shows.
-inline constexpr double least_flow_row_s = 0.02;
+/// A shorter row [s] is none: a spool that slips shows the meter's lag before its speed shows, and friction off its
+/// mean.
+inline constexpr double least_row_s = 0.02;
 /// So close to either end [share of the stroke] stops may carry force, and a spool that overshoots leaves the maps: no
 /// row of force or flow. Nor is there one above the highest pressure difference of the maps.
 inline constexpr double end_share = 0.015;
@@ -66,8 +67,9 @@ inline constexpr double resistance_uncertainty_share = 0.04;  ///< of copper: 10
 enum class EvidenceOf : unsigned char { force, unpressurised_force, breakaway, flow, closed_reading, resistance };
 
 /// Rows of evidence: means over a tenth of a millimetre of travel, or half a second, whichever ends first, of
-/// - force while the spool slides without dither: magnetic force less spring, flow force at the measured pressure
-///   difference and friction, as the sensor has them; needs no pressure, or a measured one or flow;
+/// - force while the spool slides without dither, under pressure by sticking and slipping too: magnetic force less
+///   spring, flow force at the measured pressure difference and friction, as the sensor has them; needs no pressure, or
+///   a measured one or flow;
 /// - flow: the meter less conductance times root of the measured pressure difference, seen through the meter's lag;
 /// - the position at the closed end, without current;
 /// - the coil's resistance, where the voltage is measured.

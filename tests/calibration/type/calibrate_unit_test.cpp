@@ -1,5 +1,6 @@
 #include "spoolflow/calibration/type/calibrate_unit.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -9,6 +10,8 @@
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/type/spread.hpp"
 #include "spoolflow/calibration/type/type_model.hpp"
+#include "spoolflow/calibration/type/unit_evidence.hpp"
+#include "spoolflow/recording/reader.hpp"
 #include "tests/calibration/type/virtual_unit.hpp"
 #include "tests/recording/temporary_file.hpp"
 
@@ -32,24 +35,33 @@ const model::Model& type() {
 /// The type's file, a unit's campaign and its recordings in one folder.
 class UnitFolder {
  public:
-  UnitFolder(const Deviations& deviations, const std::string& channels_left_out = "")
+  explicit UnitFolder(const Deviations& deviations, double slip_m = 0)
       : file_("unit.toml",
               "name = \"U 17\"\n[[recording]]\nprotocol = \"unpressurised_strokes\"\nfile = \"dry.csv\"\n"
-              "[[recording]]\nprotocol = \"operation\"\nfile = \"wet.csv\"\n" +
-                  channels_left_out) {
+              "[[recording]]\nprotocol = \"operation\"\nfile = \"wet.csv\"\n") {
     const sensor::ObserverParameters<double> unit = unit_parameters(type().observer->parameters, deviations);
     write_strokes(file_.folder() / "dry.csv", unit, {0, 0}, type().valve.stroke_m);
-    write_strokes(file_.folder() / "wet.csv", unit, {40, 40}, type().valve.stroke_m);
+    const double way_s = slip_m > 0 ? 16 : 6, never_s = 1e9;
+    write_strokes(file_.folder() / "wet.csv", unit, {40, 40}, type().valve.stroke_m, way_s, never_s, slip_m);
     std::ofstream out(file_.folder() / "type.json");
     model::write_model(out, type());
   }
   [[nodiscard]] UnitCalibration calibrate() const {
-    const recording::Campaign campaign = recording::read_unit_campaign(file_.path(), valve_of_type(type()));
+    const recording::Campaign campaign = unit();
     return calibrate_unit(type(), (file_.folder() / "type.json").string(), campaign, "test",
                           [](const std::string&, double) {});
   }
+  /// Of the run under pressure.
+  [[nodiscard]] std::ptrdiff_t force_rows() const {
+    const recording::Recording wet = recording::read_recording(file_.folder() / "wet.csv", {});
+    const UnitEvidence evidence(type(), {{&wet, recording::Protocol::operation}});
+    return std::ranges::count(evidence.kinds(), EvidenceOf::force);
+  }
 
  private:
+  [[nodiscard]] recording::Campaign unit() const {
+    return recording::read_unit_campaign(file_.path(), valve_of_type(type()));
+  }
   recording::TemporaryFile file_;
 };
 
@@ -90,6 +102,20 @@ TEST(CalibrateUnit, FindsAUnitsFlowWithinAHundredthWhereItsTypeErrsByMore) {
   EXPECT_EQ(unit.model.valve.name, "U 17");
   EXPECT_TRUE(unit.model.type->unit);
   EXPECT_LT(unit.model.observer->parameters.environment.force_N, 0.5 * type().observer->parameters.environment.force_N);
+}
+
+TEST(CalibrateUnit, ASpoolThatSticksAndSlipsUnderPressureShowsItsForcesAsOftenAsOneThatSlides) {
+  Deviations deviations{};
+  deviations[at(Variation::flow_force)] = 0.03;
+  constexpr double slip_m = 30e-6;
+  const UnitFolder slips(deviations, slip_m), slides(deviations);
+  EXPECT_GT(slips.force_rows(), slides.force_rows() / 2);
+  const UnitCalibration unit = slips.calibrate();
+  const UnitParameter& flow_force = unit.parameters[at(Variation::flow_force)];
+  EXPECT_NEAR(flow_force.value, deviations[at(Variation::flow_force)], 2 * flow_force.uncertainty);
+  const sensor::ObserverParameters<double> truth = unit_parameters(type().observer->parameters, deviations);
+  for (const double position_m : {1.0e-3, 1.6e-3, 2.2e-3})
+    EXPECT_NEAR(flow_error(unit.model.observer->parameters, truth, position_m), 0, 0.01);
 }
 
 TEST(CalibrateUnit, WhatNoRecordingShowsStaysAtTheTypesSpreadAndIsNamed) {

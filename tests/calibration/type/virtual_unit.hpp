@@ -29,11 +29,25 @@ inline double balancing_current_A(const sensor::ObserverParameters<double>& unit
   return low_A;
 }
 
+/// Where a spool is that sticks and slips on its way, and how its friction stands beside that of sliding: it grows
+/// while the spool sticks and falls while it slips.
+struct StickSlip {
+  double travel_m, friction_share;
+};
+inline StickSlip stick_slip(double even_travel_m, double slip_m) {
+  constexpr double sticks = 0.9, beyond = 0.2;  // of the time; of friction
+  if (!(slip_m > 0)) return {even_travel_m, 1};
+  const double slips = std::floor(even_travel_m / slip_m), phase = even_travel_m / slip_m - slips;
+  if (phase < sticks) return {slips * slip_m, 1 + beyond * (2 * phase / sticks - 1)};
+  const double slipped = (phase - sticks) / (1 - sticks);
+  return {(slips + slipped) * slip_m, 1 + beyond * (1 - 2 * slipped)};
+}
+
 /// A slow stroke at each pressure difference, from rest at the closed end, as CSV. `stalls_after_s` after its begin the
-/// piston stands at its end, and 0.1 bar are left.
+/// piston stands at its end, and 0.1 bar are left. With `slip_m` the spool sticks and slips so far each time.
 inline void write_strokes(const std::filesystem::path& file, const sensor::ObserverParameters<double>& unit,
                           const std::vector<double>& pressures_bar, double full_stroke_m, double way_s = 6,
-                          double stalls_after_s = 1e9) {
+                          double stalls_after_s = 1e9, double slip_m = 0) {
   std::ofstream out(file);
   out.precision(9);
   out << "time_s,position_mm,current_A,oil_temperature_C,pressure_difference_bar,flow_reference_L_min\n";
@@ -41,7 +55,7 @@ inline void write_strokes(const std::filesystem::path& file, const sensor::Obser
   constexpr double rest_s = 0.5, turn_s = 0.2;
   const double stroke_s = 2 * (way_s + turn_s), end_s = rest_s + stroke_s * static_cast<double>(pressures_bar.size());
   const double read_zero_m = unit.spring.curve.axis.first;  // where the closed end reads
-  double time_s = 0, before_m = read_zero_m;
+  double time_s = 0;
   for (bool first = true; time_s < end_s; time_s += virtual_step_s) {
     const double moving_s = std::max(0.0, time_s - rest_s);
     const double phase = std::fmod(moving_s, stroke_s);
@@ -51,13 +65,15 @@ inline void write_strokes(const std::filesystem::path& file, const sensor::Obser
     const double share = phase < way_s            ? phase / way_s
                          : phase < way_s + turn_s ? 1
                                                   : std::max(0.0, 1 - (phase - way_s - turn_s) / way_s);
-    const double position_m = read_zero_m + 0.99 * full_stroke_m * share;
-    const double direction = position_m > before_m ? 1 : position_m < before_m ? -1 : 0;
-    before_m = position_m;
+    const bool opens = phase < way_s;
+    const double way_m = 0.99 * full_stroke_m;
+    const StickSlip moved = stick_slip(way_m * (opens ? share : 1 - share), slip_m);
+    const double position_m = read_zero_m + (opens ? moved.travel_m : way_m - moved.travel_m);
+    const double direction = opens ? 1 : share > 0 && share < 1 ? -1 : 0;
     const sensor::EdgePoint<double> edge = unit.edge.at(323.15, pressure_bar * 1e5, position_m);
     const double ratio = unit.friction.operation_ratio;
     const double wanted_N = unit.spring.at(position_m).value + (pressure_bar > 0 ? edge.flow_force_N : 0) +
-                            direction * ratio * edge.friction_N;
+                            direction * ratio * moved.friction_share * edge.friction_N;
     const double current_A =
         time_s < rest_s ? 0 : balancing_current_A(unit, actuator, position_m, wanted_N, ratio * direction);
     sensor::step(unit.actuator, actuator, sensor::Sample<double>{virtual_step_s, current_A, {}, position_m, {}}, first);
