@@ -21,9 +21,15 @@
 namespace spoolflow::apps {
 namespace {
 
+/// Of which direction of flow, where the model is of the whole valve.
+std::string of_direction(const model::Model& whole, std::size_t k) {
+  return whole.whole() ? k == 0 ? ", P to B" : ", P to A" : "";
+}
+
 /// How far apart units of the type lie beside what was taken before.
-void print_type(const calibration::SeveralUnits& compared, const calibration::Deviations& tolerances) {
-  say("  {:<18} {:>10} {:>10}   from the middle\n", "between units", "tolerance", "spread");
+void print_type(const std::string& direction, const calibration::SeveralUnits& compared,
+                const calibration::Deviations& tolerances) {
+  say("  {:<18} {:>10} {:>10}   from the middle\n", "between units" + direction, "tolerance", "spread");
   for (std::size_t k = 0; k < calibration::variations; ++k) {
     const calibration::VariationAbout& about = calibration::all_variations()[k];
     const auto [scale, unit_name] = calibration::written_unit(about.unit);
@@ -39,8 +45,8 @@ void print_type(const calibration::SeveralUnits& compared, const calibration::De
 }
 
 /// What each parameter was known to, is, and is known to.
-void print_unit(const calibration::UnitCalibration& unit) {
-  say("{}: a unit of {}\n", unit.model.valve.name, unit.model.type->name);
+void print_unit(const std::string& direction, const calibration::UnitCalibration& unit) {
+  say("{}: a unit of {}{}\n", unit.model.valve.name, unit.model.type->name, direction);
   say("  {:<18} {:>10} {:>10} {:>10}\n", "against the type", "tolerance", "is", "known to");
   for (const calibration::UnitParameter& parameter : unit.parameters) {
     const auto [scale, unit_name] = calibration::written_unit(parameter.unit);
@@ -53,8 +59,8 @@ void print_unit(const calibration::UnitCalibration& unit) {
 }
 
 /// How the units differ beside what the type took.
-void print_series(const calibration::Series& series) {
-  say("{} units, {} refused\n", series.units.size(), series.refused());
+void print_series(const std::string& direction, const calibration::Series& series) {
+  say("{} units{}, {} refused\n", series.units.size(), direction, series.refused());
   say("  {:<18} {:>10} {:>10} {:>10} {:>6}\n", "between units", "tolerance", "spread", "mean", "Cpk");
   for (const calibration::SeriesParameter& each : series.parameters) {
     const auto [scale, unit_name] = calibration::written_unit(each.unit);
@@ -71,8 +77,8 @@ void print_series(const calibration::Series& series) {
     say("  Cpk from {} units of the type on: fewer do not show it\n", calibration::least_for_capability);
 }
 
-calibration::UnitCalibration calibrate_unit(const CalibrateArguments& arguments, const CalibrationTask& task,
-                                            const model::Model& type) {
+calibration::CalibratedUnit calibrate_unit(const CalibrateArguments& arguments, const CalibrationTask& task,
+                                           const model::Model& type) {
   refuse_other_kinds("calibrate", {{task.campaign, FileKind::settings}});
   const recording::Campaign campaign = recording::read_unit_campaign(
       task.campaign, calibration::valve_of_type(type),
@@ -81,20 +87,21 @@ calibration::UnitCalibration calibrate_unit(const CalibrateArguments& arguments,
   inputs.emplace_back(arguments.type);
   OutputFile output(task.model, inputs);
   Progress progress("calibrating", arguments.quiet);
-  calibration::UnitCalibration unit = calibration::calibrate_unit(
+  calibration::CalibratedUnit unit = calibration::calibrate_unit(
       type, arguments.type, campaign, std::string(tool_version()), [&](const std::string& step, double share) {
         progress.task(step);
         progress.update(share);
       });
   output.stream() << readable_text(unit.model, task.model);
   commit_together({&output});
-  if (!arguments.quiet) print_unit(unit);
+  for (std::size_t k = 0; !arguments.quiet && k < unit.directions.size(); ++k)
+    print_unit(of_direction(type, k), unit.directions[k]);
   return unit;
 }
 
 /// The page of the series and the type as its units are, where they are asked for.
 void write_series(const CalibrateArguments& arguments, const std::vector<CalibrationTask>& tasks,
-                  const model::Model& type, std::vector<calibration::SeriesUnit> units) {
+                  const model::Model& type, const std::vector<std::vector<calibration::SeriesUnit>>& units) {
   const report::ReaderUnits reader_units(arguments.units);
   std::vector<std::filesystem::path> used{arguments.type};
   for (const CalibrationTask& task : tasks) used.insert(used.end(), {task.campaign, task.model});
@@ -102,14 +109,21 @@ void write_series(const CalibrateArguments& arguments, const std::vector<Calibra
   if (!arguments.report.empty()) page = std::make_unique<OutputFile>(arguments.report, used);
   used.emplace_back(arguments.report);
   if (!arguments.updated_type.empty()) updated = std::make_unique<OutputFile>(arguments.updated_type, used);
-  const calibration::Series series = calibration::compare_series(type, arguments.type, std::move(units));
+  std::vector<calibration::Series> series;
+  model::Model next = type;
+  for (const std::string& direction : model::directions(type)) {
+    const model::Model of_one = model::of_direction(type, direction);
+    series.push_back(calibration::compare_series(of_one, arguments.type, units.at(series.size())));
+    series.back().direction = of_direction(type, series.size() - 1);
+    if (updated) model::put_direction(next, direction, calibration::updated_type(of_one, series.back()));
+  }
   if (page) {
     const std::string origin = fmt::format("{}, spoolflow {}", model::creation_time(), tool_version());
     report::write_series_report(page->stream(), series, origin, reader_units);
   }
-  if (updated) updated->stream() << readable_text(calibration::updated_type(type, series), arguments.updated_type);
+  if (updated) updated->stream() << readable_text(next, arguments.updated_type);
   commit_together({page.get(), updated.get()});
-  if (!arguments.quiet) print_series(series);
+  for (std::size_t k = 0; !arguments.quiet && k < series.size(); ++k) print_series(of_direction(type, k), series[k]);
 }
 
 }  // namespace
@@ -134,28 +148,32 @@ void calibrate_type(const CalibrateArguments& arguments) {
     for (const std::string& doubt : units.back().provenance.doubts)
       say("spoolflow: doubt: {}: {}\n", campaign.valve.name, doubt);
   }
-  const calibration::SeveralUnits compared = calibration::compare_units(units, tolerances);
-  output.stream() << readable_text(calibration::type_of(units, compared), arguments.model);
+  const calibration::TypeOfUnits type = calibration::type_of_units(units, tolerances);
+  output.stream() << readable_text(type.model, arguments.model);
   commit_together({&output});
-  if (!arguments.quiet) print_type(compared, tolerances);
+  for (std::size_t k = 0; !arguments.quiet && k < type.compared.size(); ++k)
+    print_type(of_direction(type.model, k), type.compared[k], tolerances);
 }
 
 void calibrate_units(const CalibrateArguments& arguments, const std::vector<CalibrationTask>& tasks,
                      const Attempt& attempt) {
   const model::Model type = model::read_model(arguments.type);
-  std::vector<calibration::SeriesUnit> units;
+  std::vector<std::vector<calibration::SeriesUnit>> units(model::directions(type).size());
+  const auto add = [&](const std::vector<calibration::UnitCalibration>& directions) {
+    for (std::size_t k = 0; k < directions.size(); ++k) units[k].push_back(calibration::series_unit(directions[k]));
+  };
   for (const CalibrationTask& task : tasks) {
     attempt([&] {
       try {
-        units.push_back(calibration::series_unit(calibrate_unit(arguments, task, type)));
+        add(calibrate_unit(arguments, task, type).directions);
       } catch (const calibration::ForeignUnit& foreign) {
-        units.push_back(calibration::series_unit(foreign.unit));
+        add(foreign.directions);
         throw;
       }
     });
   }
   if (arguments.report.empty() && arguments.updated_type.empty()) return;
-  attempt([&] { write_series(arguments, tasks, type, std::move(units)); });
+  attempt([&] { write_series(arguments, tasks, type, units); });
 }
 
 }  // namespace spoolflow::apps

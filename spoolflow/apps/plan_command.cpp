@@ -44,15 +44,17 @@ std::string pressures_bar(const calibration::PlannedMinute& minute) {
 void write_scenario(std::ostream& out, const calibration::PlannedMinute& minute, const std::string& valve) {
   out << fmt::format(
       "# The planned strokes of a unit, for the virtual rig.\nprotocol = \"ramps\"\nvalve = \"{}\"\n\n[run]\n"
-      "pressure_differences_bar = [{}]\nrate_percent_per_s = {:g}\nhold_s = {:g}\npause_s = "
-      "{:g}\n\n[electronics.dither]\namplitude_A = 0\n",
-      valve, pressures_bar(minute), per_cent * minute.rate_per_s, calibration::planned_hold_s,
+      "pressure_differences_bar = [{}]\nrate_percent_per_s = {:g}\n{}hold_s = {:g}\npause_s = {:g}\n\n"
+      "[electronics.dither]\namplitude_A = 0\n",
+      valve, pressures_bar(minute), per_cent * minute.rate_per_s,
+      minute.both_ways ? "second_peak_percent = -100\n" : "", calibration::planned_hold_s,
       calibration::planned_pause_s);
 }
 
 void print_plan(const model::Model& type, const calibration::PlannedMinute& minute) {
-  say("{} strokes at {:g} %/s, {:.1f} s, at {} bar\n", minute.pressures_Pa.size(), per_cent * minute.rate_per_s,
-      minute.corners().back().time_s, pressures_bar(minute));
+  say("{} strokes{} at {:g} %/s, {:.1f} s, at {} bar\n", minute.pressures_Pa.size(),
+      minute.both_ways ? " either way" : "", per_cent * minute.rate_per_s, minute.corners().back().time_s,
+      pressures_bar(minute));
   constexpr double deviations_of_95 = 1.96;
   say("  {:<52} {:>7} {:>7}\n", "95 %, of the rated flow, sliding, mean over the range", "before", "after");
   say("  {:<52} {:>6.2f}% {:>6.2f}%\n", "what units of the type differ by",
@@ -73,7 +75,7 @@ void plan(const PlanArguments& arguments) {
   write_table(table.stream(), minute);
   if (scenario) write_scenario(scenario->stream(), minute, arguments.valve);
   commit_together({&table, scenario.get()});
-  if (!arguments.quiet) print_plan(type, minute);
+  if (!arguments.quiet) print_plan(model::of_direction(type, "b"), minute);
 }
 
 }  // namespace

@@ -99,11 +99,12 @@ void add_unused_entries(std::vector<std::string>& to, const recording::ChannelMa
 }
 
 /// What each recording is read with; why one cannot serve goes to `missing`. Nothing of directions is asked.
-std::vector<recording::ReadOptions> options_of(const recording::Campaign& campaign, std::vector<std::string>& missing) {
+/// `one_direction`, unless empty, says why no recording can be of both, and what to do with one that is.
+std::vector<recording::ReadOptions> options_of(const recording::Campaign& campaign, std::string_view one_direction,
+                                               std::vector<std::string>& missing) {
   std::vector<recording::ReadOptions> out;
   std::set<std::string> columns;
   bool all_open = true;
-  const bool one_direction = bench_directions(campaign).size() <= 1;
   for (const recording::CampaignRecording& entry : campaign.recordings) {
     const ProtocolChannels wanted = channels_of(entry.protocol);
     recording::ReadOptions options{entry.channels, wanted.required, wanted.optional, campaign.valve.stroke_m};
@@ -114,12 +115,10 @@ std::vector<recording::ReadOptions> options_of(const recording::Campaign& campai
       for (std::string& text : missing_channels(*open.table, options, entry.protocol, entry.file.string())) {
         if (std::ranges::count(missing, text) == 0) missing.push_back(std::move(text));
       }
-      if (entry.protocol == Protocol::operation && one_direction &&
+      if (entry.protocol == Protocol::operation && !one_direction.empty() &&
           has_both_coils(*open.table, options, entry.file.string())) {
-        missing.push_back(fmt::format(
-            "{}: has the currents of both coils, but the campaign has bench recordings of one direction; record the "
-            "bench tests in both directions, or leave this run out",
-            entry.file.string()));
+        missing.push_back(
+            fmt::format("{}: has the currents of both coils, but {}", entry.file.string(), one_direction));
       }
     } catch (const recording::RecordingError& error) {
       missing.emplace_back(error.what());
@@ -149,14 +148,20 @@ std::vector<std::string> bench_directions(const recording::Campaign& campaign) {
 std::vector<recording::ReadOptions> complete_read_options(const recording::Campaign& campaign) {
   std::vector<std::string> tests, missing;
   add_tests(tests, campaign);
-  std::vector<recording::ReadOptions> out = options_of(campaign, missing);
+  std::vector<recording::ReadOptions> out =
+      options_of(campaign,
+                 bench_directions(campaign).size() > 1 ? ""
+                                                       : "the campaign has bench recordings of one direction; record "
+                                                         "the bench tests in both directions, or leave this "
+                                                         "run out",
+                 missing);
   if (tests.empty() && missing.empty()) return out;
   std::string text = tests.empty() ? "" : fmt::format("{}: {}", campaign.file.string(), fmt::join(tests, "; "));
   for (const std::string& each : missing) text += (text.empty() ? "" : "; also ") + each;
   throw CalibrationError(text);
 }
 
-std::vector<recording::ReadOptions> unit_read_options(const recording::Campaign& unit) {
+std::vector<recording::ReadOptions> unit_read_options(const recording::Campaign& unit, bool whole) {
   std::vector<std::string> missing;
   for (const recording::CampaignRecording& entry : unit.recordings) {
     if (entry.protocol == Protocol::unpressurised_strokes || entry.protocol == Protocol::operation) continue;
@@ -165,7 +170,9 @@ std::vector<recording::ReadOptions> unit_read_options(const recording::Campaign&
                     "and operation: leave the recording out, or calibrate the campaign without --type",
                     entry.place, recording::name(entry.protocol)));
   }
-  std::vector<recording::ReadOptions> out = options_of(unit, missing);
+  std::vector<recording::ReadOptions> out = options_of(
+      unit, whole ? "" : "the type is of one direction of flow; give the whole valve's type, or leave this run out",
+      missing);
   if (missing.empty()) return out;
   throw CalibrationError(fmt::format("{}", fmt::join(missing, "; also ")));
 }

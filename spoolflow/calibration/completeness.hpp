@@ -16,7 +16,8 @@ namespace spoolflow::calibration {
 /// campaign's channel map of which no file has the column, each with what to do.
 [[nodiscard]] std::vector<recording::ReadOptions> complete_read_options(const recording::Campaign& campaign);
 
-/// The same of a unit's recordings, which are by its own solenoid: any number of them, with whatever instruments.
-[[nodiscard]] std::vector<recording::ReadOptions> unit_read_options(const recording::Campaign& unit);
+/// The same of a unit's recordings, which are by its own solenoid: any number of them, with whatever instruments; those
+/// of both coils where the type is of a `whole` valve.
+[[nodiscard]] std::vector<recording::ReadOptions> unit_read_options(const recording::Campaign& unit, bool whole);
 
 }  // namespace spoolflow::calibration

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "spoolflow/model/model.hpp"
 
 namespace spoolflow::model {
@@ -11,9 +13,26 @@ Model of_direction(const Model& model, const std::string& direction) {
     out.condensed = model.p_to_a->condensed;
     out.observer = model.p_to_a->observer;
     out.evidence = model.p_to_a->evidence;
+    out.type = model.p_to_a->type;
   }
   out.p_to_a.reset();
   return out;
+}
+
+void put_direction(Model& model, const std::string& direction, Model of_one) {
+  if (model.whole() && direction == "a") {
+    model.p_to_a = Direction{std::move(of_one.condensed), std::move(of_one.observer), std::move(of_one.evidence),
+                             std::move(of_one.type)};
+    return;
+  }
+  model.condensed = std::move(of_one.condensed);
+  model.observer = std::move(of_one.observer);
+  model.evidence = std::move(of_one.evidence);
+  model.type = std::move(of_one.type);
+}
+
+std::vector<std::string> directions(const Model& model) {
+  return model.whole() ? std::vector<std::string>{"b", "a"} : std::vector{model.valve.direction};
 }
 
 }  // namespace spoolflow::model

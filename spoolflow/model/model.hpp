@@ -96,6 +96,7 @@ struct Direction {
   Condensed condensed;
   std::optional<Observer> observer;
   Evidence evidence;
+  std::optional<TypeSection> type{};
 };
 
 struct Model {
@@ -106,7 +107,7 @@ struct Model {
   Condensed condensed;
   std::optional<Observer> observer;  ///< absent: not calibrated
   Evidence evidence;
-  std::optional<TypeSection> type;  ///< absent: of one valve, by its own campaign
+  std::optional<TypeSection> type;  ///< absent: of one valve, by its own campaign; of a whole valve one a direction
   std::optional<Direction> p_to_a;  ///< of a whole valve; what stands above is then its other direction, P to B
 
   [[nodiscard]] bool whole() const { return p_to_a.has_value(); }
@@ -115,6 +116,11 @@ struct Model {
 
 /// The model of one direction, "a" or "b", of a whole valve; a model of one direction is its own.
 [[nodiscard]] Model of_direction(const Model& model, const std::string& direction);
+/// Puts a model of one direction in the place of that of a whole valve; of one direction it takes the model's place.
+/// Valve and provenance stay.
+void put_direction(Model& model, const std::string& direction, Model of_one);
+/// "b" and "a" of a whole valve, else its own.
+[[nodiscard]] std::vector<std::string> directions(const Model& model);
 
 /// Writes the versioned JSON file.
 void write_model(std::ostream& out, const Model& model);

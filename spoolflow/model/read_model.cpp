@@ -260,6 +260,7 @@ Model parse_model(const std::string& text, const std::string& file) {
     const JsonNode p_to_a = root.at("p_to_a");
     out.p_to_a = Direction{condensed(p_to_a.at("condensed")), std::nullopt, evidence(p_to_a.at("evidence"))};
     if (p_to_a.has("observer")) out.p_to_a->observer = observer(p_to_a.at("observer"));
+    if (p_to_a.has("type")) out.p_to_a->type = type_section(p_to_a.at("type"));
   }
   require_limits(out, file);
   return out;

@@ -207,6 +207,7 @@ void write_model(std::ostream& out, const Model& model) {
   if (model.p_to_a) {
     Json& p_to_a = file["p_to_a"] = {{"condensed", condensed(model.p_to_a->condensed)}};
     if (model.p_to_a->observer) p_to_a["observer"] = observer(*model.p_to_a->observer);
+    if (model.p_to_a->type) p_to_a["type"] = type_section(*model.p_to_a->type);
     p_to_a["evidence"] = evidence(model.p_to_a->evidence);
   }
   out << file.dump(1) << '\n';

@@ -50,7 +50,7 @@ Monitor::Monitor(const model::Model& model, const Options& options, const std::o
     reference_[k].valve = &parameters(model, k == 1);
     reference_[k].stroke_m = model.valve.stroke_m;
     reference_[k].whole = model.whole();
-    reference_[k].healthy = healthy_spread_of(model);
+    reference_[k].healthy = healthy_spread_of(model::of_direction(model, k == 1 ? "a" : "b"));
     reference_[k].baseline = baseline ? baseline->side[k] : DirectionBaseline{.spread = reference_[k].healthy};
   }
   if (baseline) {

@@ -1,5 +1,6 @@
 /// A type's units by the command: series page, updated type, plan, and what else takes their models.
 #include <fstream>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -49,7 +50,6 @@ class TypeAndUnits : public CommandLine {
     record("14", deviations);
   }
 
- private:
   model::Model type_;
 };
 
@@ -81,6 +81,42 @@ TEST_F(TypeAndUnits, ASeriesHasItsPageAndUpdatesItsType) {
   EXPECT_EQ(by_type.status, 0) << by_type.message;
   EXPECT_THAT(by_type.message, HasSubstr("calibrate UNIT.toml --type next.json -o UNIT.json"));
   EXPECT_THAT(run("estimate models/12.json run.csv -o flow.csv").message, Not(HasSubstr("--type")));
+}
+
+TEST_F(TypeAndUnits, OfAWholeValveBothDirectionsArePlannedFittedAndComparedEachByItself) {
+  std::ofstream(folder / "whole.json") << [] {
+    model::Model valve = model::read_model(SPOOLFLOW_EXAMPLE_MODEL);
+    valve.observer->parameters.position_sensor.drift_m_per_K = 0;
+    std::ostringstream out;
+    model::write_model(
+        out, calibration::type_model(calibration::whole_of(std::move(valve)), calibration::tolerances_from({})));
+    return out.str();
+  }();
+  for (const int serial : {1, 2, 3}) {
+    const std::filesystem::path of_unit = folder / "whole" / std::to_string(serial);
+    std::filesystem::create_directories(of_unit);
+    std::ofstream(of_unit / "unit.toml") << "[[recording]]\nprotocol = \"operation\"\nfile = \"both.csv\"\n";
+    calibration::Deviations deviations{};
+    deviations[at(Variation::spring_preload)] = 0.01 * (serial - 2);
+    const auto unit = calibration::unit_parameters(type_.observer->parameters, deviations);
+    constexpr double pressure_bar = 40;
+    calibration::write_whole_strokes(of_unit / "both.csv", unit, unit, pressure_bar, type_.valve.stroke_m);
+  }
+  const Answer series =
+      run("calibrate --type whole.json whole/1/unit.toml whole/2/unit.toml whole/3/unit.toml -o models --report "
+          "series.html "
+          "--update-type next.json");
+  EXPECT_EQ(series.status, 0) << series.message;
+  for (const char* text : {"serial A, P to B", "serial A, P to A", "3 units, P to A, 0 refused"})
+    EXPECT_THAT(series.message, HasSubstr(text));
+  EXPECT_THAT(content("series.html"),
+              AllOf(HasSubstr("of the type, P to B"), HasSubstr("Spread and capability, P to A")));
+  EXPECT_TRUE(model::read_model(folder / "next.json").p_to_a->type.has_value());
+  EXPECT_EQ(run("estimate models/2.json whole/2/both.csv -o estimate.csv").status, 0);
+  const Answer plan = run("plan whole.json -o plan.csv --scenario plan.toml");
+  EXPECT_EQ(plan.status, 0) << plan.message;
+  EXPECT_THAT(content("plan.csv"), HasSubstr(",-100,"));
+  EXPECT_THAT(content("plan.toml"), HasSubstr("second_peak_percent = -100"));
 }
 
 TEST_F(TypeAndUnits, AUnitsModelIsTakenByMonitorValidateAndFlashPagesAsAnyValves) {

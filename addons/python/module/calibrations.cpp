@@ -72,7 +72,7 @@ py::tuple calibrate(const std::vector<Path>& files, bool allow_outside, bool des
            model::Model& first = models.front();
            if (models.size() > 1) {
              const auto tolerances = calibration::tolerances_of(campaigns);
-             first = calibration::type_of(models, calibration::compare_units(models, tolerances));
+             first = calibration::type_of_units(models, tolerances).model;
            } else if (as_type) {
              first =
                  calibration::type_model(std::move(first), calibration::tolerances_from(campaigns.front().tolerances));
@@ -92,14 +92,16 @@ py::tuple calibrate_unit(const Path& file, bool allow_outside, const Path& type_
            const model::Model type = model::read_model(type_file);
            const recording::Campaign campaign =
                recording::read_unit_campaign(file, calibration::valve_of_type(type), outside(allow_outside));
-           const calibration::UnitCalibration unit = calibration::calibrate_unit(
+           const calibration::CalibratedUnit unit = calibration::calibrate_unit(
                type, type_file.string(), campaign, SPOOLFLOW_VERSION,
                [&](const std::string& step, double share) { check(progress, step, share); });
            Made out{kept(unit.model)};
-           for (const calibration::UnitParameter& each : unit.parameters) {
-             if (!each.marginal) continue;
-             out.notes.push_back(fmt::format("{}: at the type's edge, {:.1f} standard deviations from its mean",
-                                             each.name, each.deviations));
+           for (const calibration::UnitCalibration& direction : unit.directions) {
+             for (const calibration::UnitParameter& each : direction.parameters) {
+               if (!each.marginal) continue;
+               out.notes.push_back(fmt::format("{}: at the type's edge, {:.1f} standard deviations from its mean",
+                                               each.name, each.deviations));
+             }
            }
            return out;
          })

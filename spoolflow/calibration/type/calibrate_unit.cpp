@@ -8,13 +8,18 @@
 
 #include "spoolflow/calibration/completeness.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
+#include "spoolflow/calibration/type/one_side.hpp"
 #include "spoolflow/calibration/type/type_model.hpp"
 #include "spoolflow/calibration/type/unit_parameters.hpp"
 #include "spoolflow/calibration/unpressurised_strokes.hpp"
+#include "spoolflow/recording/coil_channels.hpp"
 #include "spoolflow/recording/reader.hpp"
 
 namespace spoolflow::calibration {
 namespace {
+
+/// The direction of a run of the whole valve.
+constexpr const char* through_centre = "both";
 
 Deviations deviations_from(const Eigen::VectorXd& mean) {
   Deviations out{};
@@ -86,24 +91,23 @@ void require_evidence(const UnitEvidence& evidence, const std::string& file) {
       file));
 }
 
-}  // namespace
-
-recording::CampaignValve valve_of_type(const model::Model& type) {
-  return {type.valve.name, type.valve.rated_flow_m3_per_s, type.valve.stroke_m, type.valve.direction};
+Deviations tolerances_of(const model::Model& type) {
+  Deviations out{};
+  for (std::size_t k = 0; k < variations; ++k) out[k] = type.type->deviations[k].tolerance;
+  return out;
 }
 
-UnitCalibration unit_of_type(const model::Model& type, const std::string& type_file, const UnitRecordings& unit) {
+/// From the unit's recordings of that direction, whether it is of the type or not.
+UnitCalibration of_direction(const model::Model& type, const std::string& type_file, const UnitRecordings& unit) {
   const KnownDeviations prior = known_of_type(type, type_file);
   const UnitEvidence evidence(type, unit.runs);
   require_evidence(evidence, unit.file);
   const UnitFit fit = most_likely_unit(evidence, prior);
-  Deviations tolerances{};
-  for (std::size_t k = 0; k < variations; ++k) tolerances[k] = type.type->deviations[k].tolerance;
+  const Deviations tolerances = tolerances_of(type);
   UnitCalibration out{type, compared(fit, prior, tolerances), 0, fit.misfit, fit.known, {}};
   for (const UnitParameter& parameter : out.parameters) out.chi_square += parameter.deviations * parameter.deviations;
-  out.model.valve.name = unit.name;
   out.refusal = refusal_of(out, unit.file, type.type->name);
-  if (!out.refusal.empty()) throw ForeignUnit(std::move(out));
+  if (!out.refusal.empty()) return out;
   const Deviations deviations = deviations_from(fit.known.mean);
   out.model.observer->parameters = unit_parameters(type.observer->parameters, deviations);
   out.model.condensed.parameters = unit_parameters(type.condensed.parameters, deviations);
@@ -112,10 +116,63 @@ UnitCalibration unit_of_type(const model::Model& type, const std::string& type_f
   return out;
 }
 
-UnitCalibration calibrate_unit(const model::Model& type, const std::string& type_file, const recording::Campaign& unit,
-                               const std::string& tool_version, const CalibrationProgress& progress) {
-  static_cast<void>(known_of_type(type, type_file));  // is it one
-  const std::vector<recording::ReadOptions> options = unit_read_options(unit);
+/// What is known of a direction without recordings: the type's tables and band.
+UnitCalibration unseen_unit(const model::Model& type, const std::string& type_file) {
+  const KnownDeviations prior = known_of_type(type, type_file);
+  UnitCalibration out{type, compared({prior, 0, {}, 0}, prior, tolerances_of(type)), 0, 0, prior, {}};
+  out.model.type->unit = true;
+  return out;
+}
+
+/// The direction of a recording of a unit, or `through_centre`, where the type is of a whole valve.
+std::string direction_of(const recording::CampaignRecording& entry, const recording::Recording& read) {
+  if (recording::has_both_coils(read)) return through_centre;
+  if (entry.direction != "both") return entry.direction;
+  throw CalibrationError(fmt::format(
+      "{}: {} has the current of one coil, and the type is of a whole valve; give direction = \"b\" (flow P "
+      "to B) or \"a\" (P to A) with it, or the currents of both coils, current_a and current_b",
+      entry.place, read.file.filename().string()));
+}
+
+}  // namespace
+
+recording::CampaignValve valve_of_type(const model::Model& type) {
+  return {type.valve.name, type.valve.rated_flow_m3_per_s, type.valve.stroke_m, type.valve.direction};
+}
+
+CalibratedUnit unit_of_type(const model::Model& type, const std::string& type_file, const UnitRecordings& unit) {
+  CalibratedUnit out{type, {}};
+  out.model.valve.name = unit.name;
+  std::string refusals;
+  for (const std::string& direction : model::directions(type)) {
+    const model::Model of_one = model::of_direction(type, direction);
+    std::deque<recording::Recording> parts;
+    UnitRecordings its{unit.name, unit.file, {}};
+    if (type.whole()) its.file += direction == "a" ? ", P to A" : ", P to B";
+    for (const UnitRun& run : unit.runs) {
+      if (type.whole() && run.direction == through_centre) {
+        parts.push_back(one_side(*run.recording, direction, type.valve.stroke_m));
+        its.runs.push_back({&parts.back(), run.protocol, direction});
+      } else if (!type.whole() || run.direction == direction) {
+        its.runs.push_back(run);
+      }
+    }
+    UnitCalibration found = its.runs.empty() && type.whole() && !unit.runs.empty()
+                                ? unseen_unit(of_one, type_file)
+                                : of_direction(of_one, type_file, its);
+    found.model.valve.name = unit.name;
+    if (!found.refusal.empty()) refusals += (refusals.empty() ? "" : "; also ") + found.refusal;
+    model::put_direction(out.model, direction, found.model);
+    out.directions.push_back(std::move(found));
+  }
+  if (!refusals.empty()) throw ForeignUnit(refusals, std::move(out.directions));
+  return out;
+}
+
+CalibratedUnit calibrate_unit(const model::Model& type, const std::string& type_file, const recording::Campaign& unit,
+                              const std::string& tool_version, const CalibrationProgress& progress) {
+  static_cast<void>(known_of_type(model::of_direction(type, "b"), type_file));  // is it one
+  const std::vector<recording::ReadOptions> options = unit_read_options(unit, type.whole());
   model::Provenance provenance{tool_version, model::creation_time(), {}};
   provenance.inputs.push_back({"campaign", unit.file.filename().string(), model::sha256_of_file(unit.file), 0});
   provenance.inputs.push_back(
@@ -132,11 +189,11 @@ UnitCalibration calibrate_unit(const model::Model& type, const std::string& type
       require_unpressurised_strokes(read, type.valve.rated_flow_m3_per_s, type.valve.stroke_m);
     provenance.inputs.push_back({std::string(recording::name(entry.protocol)), entry.file.filename().string(),
                                  model::sha256_of_file(entry.file), read.size(), read.resampled});
-    runs.push_back({&read, entry.protocol});
+    runs.push_back({&read, entry.protocol, type.whole() ? direction_of(entry, read) : ""});
   }
   constexpr double reading_share = 0.3;
   progress("the unit against its type", reading_share);
-  UnitCalibration out = unit_of_type(type, type_file, {unit.valve.name, unit.file.string(), std::move(runs)});
+  CalibratedUnit out = unit_of_type(type, type_file, {unit.valve.name, unit.file.string(), std::move(runs)});
   out.model.provenance = std::move(provenance);
   progress("done", 1.0);
   return out;

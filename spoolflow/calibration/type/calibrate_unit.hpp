@@ -33,8 +33,9 @@ struct UnitParameter {
   bool seen, marginal;
 };
 
+/// One direction of flow of it.
 struct UnitCalibration {
-  model::Model model;
+  model::Model model;  ///< of that direction
   std::vector<UnitParameter> parameters;
   double chi_square;
   double misfit;  ///< see UnitFit
@@ -42,11 +43,17 @@ struct UnitCalibration {
   std::string refusal;  ///< why it is not of the type; empty: it is
 };
 
-/// A unit that is not of its type, with what its recordings say nonetheless; its `model` is the type's under the unit's
-/// name.
+struct CalibratedUnit {
+  model::Model model;
+  std::vector<UnitCalibration> directions;  ///< in the order of model::directions(); of no refusal
+};
+
+/// A unit that is not of its type, with what its recordings say nonetheless; a direction's `model` is the type's under
+/// the unit's name where that is refused.
 struct ForeignUnit : CalibrationError {
-  explicit ForeignUnit(UnitCalibration foreign) : CalibrationError(foreign.refusal), unit(std::move(foreign)) {}
-  UnitCalibration unit;
+  ForeignUnit(const std::string& refusal, std::vector<UnitCalibration> foreign)
+      : CalibrationError(refusal), directions(std::move(foreign)) {}
+  std::vector<UnitCalibration> directions;
 };
 
 /// The name of a unit's protocol in provenance that stands for its type's model.
@@ -59,16 +66,18 @@ struct UnitRecordings {
   std::vector<UnitRun> runs;
 };
 
-/// Fits them. The model keeps the type's provenance. Throws CalibrationError: recordings that show nothing of any
-/// direction; ForeignUnit: it is not of the type, with the directions by name and by how many standard deviations.
-[[nodiscard]] UnitCalibration unit_of_type(const model::Model& type, const std::string& type_file,
-                                           const UnitRecordings& unit);
+/// Fits them, of a whole valve each direction by itself from its runs and its part of those through the centre; one of
+/// which there is none stays the type's. The model keeps the type's provenance. Throws CalibrationError: recordings
+/// that show nothing; ForeignUnit: it is not of the type, with the directions of variation by name and by how many
+/// standard deviations.
+[[nodiscard]] CalibratedUnit unit_of_type(const model::Model& type, const std::string& type_file,
+                                          const UnitRecordings& unit);
 
 /// Reads the unit's recordings and does the same, with a provenance of its own. `type_file` is the file of `type`, for
 /// provenance and messages. Throws RecordingError or CalibrationError for recordings that cannot serve.
-[[nodiscard]] UnitCalibration calibrate_unit(const model::Model& type, const std::string& type_file,
-                                             const recording::Campaign& unit, const std::string& tool_version,
-                                             const CalibrationProgress& progress);
+[[nodiscard]] CalibratedUnit calibrate_unit(const model::Model& type, const std::string& type_file,
+                                            const recording::Campaign& unit, const std::string& tool_version,
+                                            const CalibrationProgress& progress);
 
 /// The valve of a type as a unit's campaign takes it.
 [[nodiscard]] recording::CampaignValve valve_of_type(const model::Model& type);

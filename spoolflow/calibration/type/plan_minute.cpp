@@ -184,21 +184,29 @@ class Planner {
 std::vector<PlannedCorner> PlannedMinute::corners() const {
   std::vector<PlannedCorner> out;
   double time_s = 0;
+  const std::array<double, 4> lasts_s{planned_pause_s, 1 / rate_per_s, planned_hold_s, 1 / rate_per_s};
+  const std::array<double, 4> begins{0, 0, 1, 1};
+  const std::vector<double> peaks = both_ways ? std::vector<double>{1, -1} : std::vector<double>{1};
   for (const double pressure_Pa : pressures_Pa) {
-    const std::array<double, 4> lasts_s{planned_pause_s, 1 / rate_per_s, planned_hold_s, 1 / rate_per_s};
-    const std::array<double, 4> begins{0, 0, 1, 1};
-    for (std::size_t k = 0; k < lasts_s.size(); ++k) {
-      out.push_back({time_s, begins[k], pressure_Pa});
-      time_s += lasts_s[k];
+    for (const double peak : peaks) {
+      for (std::size_t k = 0; k < lasts_s.size(); ++k) {
+        out.push_back({time_s, begins[k] == 0 ? 0 : peak, pressure_Pa});
+        time_s += lasts_s[k];
+      }
+      out.push_back({time_s, 0, pressure_Pa});
+      time_s += planned_pause_s;
     }
-    out.push_back({time_s, 0, pressure_Pa});
-    time_s += planned_pause_s;
   }
   if (!pressures_Pa.empty()) out.push_back({time_s, 0, pressures_Pa.back()});
   return out;
 }
 
 PlannedMinute plan_minute(const model::Model& type, const std::string& file, double seconds) {
+  if (type.whole()) {
+    PlannedMinute out = plan_minute(model::of_direction(type, "b"), file, seconds / 2);
+    out.both_ways = true;
+    return out;
+  }
   const KnownDeviations known = known_of_type(type, file);
   const Planner planner(type, known);
   PlannedMinute out{0, {}, planner.before_share(), INFINITY, known};

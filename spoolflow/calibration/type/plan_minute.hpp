@@ -21,6 +21,8 @@ struct PlannedMinute {
   /// both directions, as a share of the rated flow: of any unit of the type, and of one that was recorded so.
   double before_share, after_share;
   KnownDeviations after;  ///< what is known of such a unit's deviations; the mean is the type's
+  bool both_ways =
+      false;  ///< of a whole valve: at each pressure P to B, then P to A with position < 0; all is of P to B
 
   [[nodiscard]] std::vector<PlannedCorner> corners() const;
 };
@@ -29,11 +31,12 @@ inline constexpr double planned_hold_s = 0.5, planned_pause_s = 0.5;
 
 /// Least mean variance of the flow over the operating range (I-optimal) after calibrate_unit() of the strokes recorded
 /// with flow meter and pressure difference; every rate of a few with the pressures that exchange finds for it.
-/// Recordings with dither show no friction and no force row, so that the plan has none. Throws CalibrationError where
-/// `type`, from `file`, is no type's model or no stroke fits into `seconds`.
+/// Recordings with dither show no friction and no force row, so that the plan has none. Of a whole valve the strokes
+/// are chosen for its direction P to B. Throws CalibrationError where `type`, from `file`, is no type's model or no
+/// stroke fits into `seconds`.
 [[nodiscard]] PlannedMinute plan_minute(const model::Model& type, const std::string& file, double seconds);
 
-/// The type's middle as a unit that was recorded so: its band is as wide as that unit's will be.
+/// The type's middle, of one direction, as a unit that was recorded so: its band is as wide as that unit's will be.
 [[nodiscard]] model::Model planned_unit(const model::Model& type, const PlannedMinute& minute);
 
 }  // namespace spoolflow::calibration

@@ -47,6 +47,7 @@ struct Series {
   std::vector<SeriesUnit> units;            ///< by serial number
   std::vector<SeriesParameter> parameters;  ///< as all_variations()
   std::optional<Population> population;     ///< of those that are of the type, about it; none of fewer than two
+  std::string direction{};                  ///< of a whole valve ", P to B" or ", P to A", for headings
 
   [[nodiscard]] std::size_t refused() const;
 };

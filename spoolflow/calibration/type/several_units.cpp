@@ -83,7 +83,7 @@ void require_comparable(const std::vector<model::Model>& units) {
       throw CalibrationError(
           fmt::format("{}: a type is made of one direction's full sensor of each unit, and this is {}", unit.valve.name,
                       unit.type      ? "a type's or a unit's model already"
-                      : unit.whole() ? "of both directions; make one type of each direction's benches"
+                      : unit.whole() ? "of both directions"
                                      : "the condensed sensor alone; record solenoid_dynamic, and axial_force_map at "
                                        "two or more oil temperatures"));
     }
@@ -188,6 +188,25 @@ model::Model type_of(const std::vector<model::Model>& units, const SeveralUnits&
     if (campaign != unit.provenance.inputs.end()) out.provenance.inputs.push_back(*campaign);
   }
   return type_model(std::move(out), spread, compared.next);
+}
+
+TypeOfUnits type_of_units(const std::vector<model::Model>& units, const Deviations& tolerances) {
+  TypeOfUnits out;
+  for (const std::string& direction : model::directions(units.front())) {
+    std::vector<model::Model> of_one;
+    for (const model::Model& unit : units) of_one.push_back(model::of_direction(unit, direction));
+    out.compared.push_back(compare_units(of_one, tolerances));
+    const std::size_t nearest = out.compared.back().nearest;
+    model::Model type = type_of(of_one, out.compared.back());
+    if (out.compared.size() == 1) {
+      out.model = units[nearest];
+      out.model.valve.name = type.valve.name;
+      type.provenance.quantities = units[nearest].provenance.quantities;
+      out.model.provenance = type.provenance;
+    }
+    model::put_direction(out.model, direction, std::move(type));
+  }
+  return out;
 }
 
 }  // namespace spoolflow::calibration

@@ -36,4 +36,11 @@ struct SeveralUnits {
 /// The type that these units are of: the tables of its middle, a band for the next unit.
 [[nodiscard]] model::Model type_of(const std::vector<model::Model>& units, const SeveralUnits& compared);
 
+struct TypeOfUnits {
+  model::Model model;
+  std::vector<SeveralUnits> compared;  ///< one a direction, in the order of model::directions()
+};
+/// Both, of whole valves for each direction by itself. `units` is not empty; throws as compare_units().
+[[nodiscard]] TypeOfUnits type_of_units(const std::vector<model::Model>& units, const Deviations& tolerances);
+
 }  // namespace spoolflow::calibration

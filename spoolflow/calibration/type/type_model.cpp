@@ -98,9 +98,6 @@ model::Model of_type(model::Model valve, const Deviations& tolerances, const Kno
     throw CalibrationError(
         "a type needs the full sensor, and the campaign made the condensed one alone; record solenoid_dynamic, and "
         "axial_force_map at two or more oil temperatures");
-  if (valve.whole())
-    throw CalibrationError(
-        "a type is of one direction of flow, and the campaign is of both; make one type of each direction's benches");
   if (valve.type) throw CalibrationError("the model is of a type already");
   const sensor::Environment<double>& own = valve.observer->parameters.environment;
   const model::EnvironmentWithoutSpread environment{own.force_N, own.friction_share, own.flow_share,
@@ -112,6 +109,11 @@ model::Model of_type(model::Model valve, const Deviations& tolerances, const Kno
 }  // namespace
 
 model::Model type_model(model::Model valve, const Deviations& tolerances) {
+  if (valve.whole()) {
+    for (const std::string& direction : model::directions(valve))
+      model::put_direction(valve, direction, type_model(model::of_direction(valve, direction), tolerances));
+    return valve;
+  }
   const KnownDeviations units = spread_of(tolerances);
   model::Model out = of_type(std::move(valve), tolerances, units);
   const KnownDeviations sliding = sliding_with_ageing(units, out.observer->parameters.friction);

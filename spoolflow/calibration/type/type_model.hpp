@@ -18,10 +18,12 @@ namespace spoolflow::calibration {
 /// The same of the first campaign that has [tolerances]. Throws CalibrationError where another's differ.
 [[nodiscard]] Deviations tolerances_of(const std::vector<recording::Campaign>& campaigns);
 
-/// A valve's own model as that of its type: the tables stay, the band holds units within these tolerances. Throws
-/// CalibrationError where the model has no observer, is of a whole valve, or is of a type or a unit already.
+/// A valve's own model as that of its type: the tables stay, the band holds units within these tolerances; of a whole
+/// valve each direction by itself. Throws CalibrationError where the model has no observer, or is of a type or a unit
+/// already.
 [[nodiscard]] model::Model type_model(model::Model valve, const Deviations& tolerances);
-/// The same where `units` says how the next unit lies about the tables, and `tolerances` its standard deviations.
+/// The same of one direction where `units` says how the next unit lies about the tables, and `tolerances` its standard
+/// deviations.
 [[nodiscard]] model::Model type_model(model::Model valve, const Deviations& tolerances, const KnownDeviations& units);
 
 /// What a type's model says of its units. Throws CalibrationError where `model`, from `file`, is no type's, or lacks a

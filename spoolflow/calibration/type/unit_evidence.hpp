@@ -1,6 +1,7 @@
 #pragma once
 /// What a unit's own recordings say of how it deviates from its type: rows that are zero where the deviations are
 /// right.
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -17,6 +18,7 @@ namespace spoolflow::calibration {
 struct UnitRun {
   const recording::Recording* recording;
   recording::Protocol protocol;  ///< unpressurised_strokes or operation
+  std::string direction{};       ///< of a whole valve's unit "a", "b", or "both" where it goes through the centre
 };
 
 /// What is searched: the deviations, and what is of the recordings and of the type's maps and stays out of the unit's

@@ -48,8 +48,8 @@ std::vector<std::string> parameters_that(const Series& series, bool (*asks)(cons
 void show_verdict(HtmlPage& page, const Series& series) {
   const auto edge = std::ranges::count_if(series.units, at_edge);
   const std::size_t of_type = series.units.size() - series.refused();
-  page.html(fmt::format("<p class=\"verdict\">{} of {} units are of the type.</p>\n<ul class=\"limits\">", of_type,
-                        series.units.size()));
+  page.html(fmt::format("<p class=\"verdict\">{} of {} units are of the type{}.</p>\n<ul class=\"limits\">", of_type,
+                        series.units.size(), series.direction));
   const auto item = [&](const std::string& text) { page.html(fmt::format("<li>{}</li>\n", html_text(text))); };
   if (series.refused() > 0) item(fmt::format("{} refused: no model was written of them", series.refused()));
   if (edge > 0)
@@ -178,7 +178,7 @@ void show_outliers(HtmlPage& page, const Series& series) {
     table.row({html_text(unit.name), unit.refusal.empty() ? "at the edge" : "refused", fixed(unit.chi_square, 1),
                html_text(deviations_text(unit))});
   }
-  page.section("Units at the edge and beyond");
+  page.section("Units at the edge and beyond" + series.direction);
   if (table.empty()) {
     page.paragraph("None.");
     return;
@@ -190,13 +190,8 @@ void show_outliers(HtmlPage& page, const Series& series) {
                   calibration::foreign_deviations, calibration::foreign_chi_square));
 }
 
-}  // namespace
-
-void write_series_report(std::ostream& out, const Series& series, const std::string& origin, const ReaderUnits& units) {
-  HtmlPage page("spoolflow series report", "Series of " + series.type, origin, units);
-  page.headline(fmt::format("{} units", series.units.size()));
-  show_verdict(page, series);
-  page.section("Spread and capability");
+void show_direction(HtmlPage& page, const Series& series) {
+  page.section("Spread and capability" + series.direction);
   page.table(spread_table(series));
   page.note(fmt::format(
       "Tolerance, spread: one standard deviation between units, as the type has it and as these units are; what each "
@@ -207,9 +202,19 @@ void write_series_report(std::ostream& out, const Series& series, const std::str
       "marked beyond {:g} standard uncertainties of it. Refused units count in none of these.",
       calibration::tolerances_as_units, calibration::capability_deviations, calibration::least_for_capability,
       calibration::least_for_drift, calibration::drifting_deviations));
-  page.section("Over the serial numbers");
+  page.section("Over the serial numbers" + series.direction);
   page.figure(course_figure(series));
   show_outliers(page, series);
+}
+
+}  // namespace
+
+void write_series_report(std::ostream& out, const std::vector<Series>& series, const std::string& origin,
+                         const ReaderUnits& units) {
+  HtmlPage page("spoolflow series report", "Series of " + series.front().type, origin, units);
+  page.headline(fmt::format("{} units", series.front().units.size()));
+  for (const Series& each : series) show_verdict(page, each);
+  for (const Series& each : series) show_direction(page, each);
   out << page.str();
 }
 

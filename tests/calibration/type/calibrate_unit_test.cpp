@@ -32,6 +32,12 @@ const model::Model& type() {
   return model;
 }
 
+/// Of a valve of one direction.
+template <class... Arguments>
+UnitCalibration calibrated_unit(const Arguments&... arguments) {
+  return calibrate_unit(arguments...).directions.at(0);
+}
+
 /// The type's file, a unit's campaign and its recordings in one folder.
 class UnitFolder {
  public:
@@ -48,8 +54,8 @@ class UnitFolder {
   }
   [[nodiscard]] UnitCalibration calibrate() const {
     const recording::Campaign campaign = unit();
-    return calibrate_unit(type(), (file_.folder() / "type.json").string(), campaign, "test",
-                          [](const std::string&, double) {});
+    return calibrated_unit(type(), (file_.folder() / "type.json").string(), campaign, "test",
+                           [](const std::string&, double) {});
   }
   /// Of the run under pressure.
   [[nodiscard]] std::ptrdiff_t force_rows() const {
@@ -123,9 +129,9 @@ TEST(CalibrateUnit, WhatNoRecordingShowsStaysAtTheTypesSpreadAndIsNamed) {
                                       "[[recording]]\nprotocol = \"unpressurised_strokes\"\nfile = \"dry.csv\"\n");
   write_strokes(file.folder() / "dry.csv", type().observer->parameters, {0, 0}, type().valve.stroke_m);
   std::ofstream(file.folder() / "type.json") << "{}";
-  const UnitCalibration unit = calibrate_unit(type(), (file.folder() / "type.json").string(),
-                                              recording::read_unit_campaign(file.path(), valve_of_type(type())), "test",
-                                              [](const std::string&, double) {});
+  const UnitCalibration unit = calibrated_unit(type(), (file.folder() / "type.json").string(),
+                                               recording::read_unit_campaign(file.path(), valve_of_type(type())),
+                                               "test", [](const std::string&, double) {});
   for (const UnitParameter& parameter : unit.parameters) {
     const bool of_pressure = parameter.name.starts_with("edge") || parameter.name.starts_with("flow_force") ||
                              parameter.name == "pressure_friction";
@@ -151,9 +157,9 @@ UnitParameter found_ageing(double logarithm) {
   write_strokes(file.folder() / "dry.csv", unit, {0, 0}, type().valve.stroke_m);
   write_stick_slip(file.folder() / "hangs.csv", unit, hangs_s, type().valve.stroke_m);
   std::ofstream(file.folder() / "type.json") << "{}";
-  const UnitCalibration found = calibrate_unit(type(), (file.folder() / "type.json").string(),
-                                               recording::read_unit_campaign(file.path(), valve_of_type(type())),
-                                               "test", [](const std::string&, double) {});
+  const UnitCalibration found = calibrated_unit(type(), (file.folder() / "type.json").string(),
+                                                recording::read_unit_campaign(file.path(), valve_of_type(type())),
+                                                "test", [](const std::string&, double) {});
   return found.parameters[at(Variation::ageing_time)];
 }
 
@@ -169,9 +175,9 @@ TEST(CalibrateUnit, ASpoolThatOvershootsItsStrokeHasNoOtherPositionSensorForThat
   constexpr double overshoots = 1.05;
   write_strokes(file.folder() / "wet.csv", type().observer->parameters, {60, 60}, overshoots * type().valve.stroke_m);
   std::ofstream(file.folder() / "type.json") << "{}";
-  const UnitCalibration unit = calibrate_unit(type(), (file.folder() / "type.json").string(),
-                                              recording::read_unit_campaign(file.path(), valve_of_type(type())), "test",
-                                              [](const std::string&, double) {});
+  const UnitCalibration unit = calibrated_unit(type(), (file.folder() / "type.json").string(),
+                                               recording::read_unit_campaign(file.path(), valve_of_type(type())),
+                                               "test", [](const std::string&, double) {});
   for (const UnitParameter& parameter : unit.parameters) EXPECT_LT(std::abs(parameter.deviations), 1) << parameter.name;
 }
 

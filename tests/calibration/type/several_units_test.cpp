@@ -10,6 +10,7 @@
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/type/type_model.hpp"
 #include "spoolflow/calibration/type/unit_parameters.hpp"
+#include "tests/calibration/type/virtual_unit.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -60,6 +61,22 @@ std::vector<model::Model> three(double apart) {
     out.push_back(unit("U" + std::to_string(k), deviations));
   }
   return out;
+}
+
+TEST(SeveralUnits, OfWholeValvesEachDirectionHasItsOwnMiddle) {
+  std::vector<model::Model> units = three(0.03);
+  const std::vector<model::Model> of_one = units;
+  for (std::size_t k = 0; k < units.size(); ++k) {  // P to A springs rise the other way
+    units[k] = whole_of(units[k]);
+    units[k].p_to_a->observer = of_one[units.size() - 1 - k].observer;
+  }
+  const TypeOfUnits type = type_of_units(units, tolerances_from({}));
+  ASSERT_EQ(type.compared.size(), 2U);
+  const auto preload = at(Variation::spring_preload);
+  EXPECT_LT(type.compared[0].units[0].deviations[preload], -0.01);
+  EXPECT_GT(type.compared[1].units[0].deviations[preload], 0.01);
+  EXPECT_TRUE(type.model.type && type.model.p_to_a->type);
+  EXPECT_EQ(type.model.valve.direction, "both");
 }
 
 TEST(SeveralUnits, TheTypeHasTheTablesOfTheirMiddle) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include "spoolflow/calibration/type/unit_parameters.hpp"
@@ -109,6 +111,41 @@ inline void write_stick_slip(const std::filesystem::path& file, const sensor::Ob
                  time_s == 0);
     out << time_s << ',' << 1e3 * position_m << ',' << current_A << ",50,0\n";
   }
+}
+
+/// A slow stroke of a whole valve P to B, as `p_to_b` has it, and one P to A, as `p_to_a` has it in its own signs. CSV.
+inline void write_whole_strokes(const std::filesystem::path& file, const sensor::ObserverParameters<double>& p_to_b,
+                                const sensor::ObserverParameters<double>& p_to_a, double pressure_bar,
+                                double full_stroke_m) {
+  std::ofstream out(file);
+  out.precision(9);
+  out << "time_s,position_mm,current_a_A,current_b_A,oil_temperature_C,pressure_difference_bar,flow_reference_L_min\n";
+  double from_s = 0;
+  for (const double way : {1.0, -1.0}) {
+    const std::filesystem::path one = file.parent_path() / "one_way.csv";
+    write_strokes(one, way > 0 ? p_to_b : p_to_a, {pressure_bar}, full_stroke_m);
+    std::ifstream in(one);
+    std::string line;
+    std::getline(in, line);  // the header
+    double last_s = 0;
+    while (std::getline(in, line)) {
+      std::istringstream cells(line);
+      double time_s = 0, position_mm = 0, current_A = 0, oil_C = 0, bar = 0, L_min = 0;
+      char comma = 0;
+      cells >> time_s >> comma >> position_mm >> comma >> current_A >> comma >> oil_C >> comma >> bar >> comma >> L_min;
+      out << from_s + time_s << ',' << way * position_mm << ',' << (way > 0 ? 0 : current_A) << ','
+          << (way > 0 ? current_A : 0) << ',' << oil_C << ',' << bar << ',' << way * L_min << '\n';
+      last_s = time_s + virtual_step_s;
+    }
+    from_s += last_s;
+  }
+}
+
+/// A valve whose directions are alike.
+inline model::Model whole_of(model::Model one) {
+  one.valve.direction = "both";
+  one.p_to_a = model::Direction{one.condensed, one.observer, one.evidence};
+  return one;
 }
 
 }  // namespace spoolflow::calibration
