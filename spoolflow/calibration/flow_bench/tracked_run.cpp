@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "spoolflow/calibration/fits/bench_strokes.hpp"
-#include "spoolflow/calibration/fits/passage.hpp"
 #include "spoolflow/calibration/fits/position_sensor.hpp"
+#include "spoolflow/calibration/numerics/passage.hpp"
 #include "spoolflow/sensor/signals/dither.hpp"
 #include "spoolflow/sensor/signals/position_track.hpp"
 

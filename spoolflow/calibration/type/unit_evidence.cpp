@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 
-#include "spoolflow/calibration/fits/passage.hpp"
 #include "spoolflow/calibration/operation/replay.hpp"
 #include "spoolflow/calibration/type/unit_parameters.hpp"
 #include "spoolflow/numerics/median.hpp"
@@ -15,8 +14,6 @@ namespace {
 
 using recording::Channel;
 
-/// A shorter rest [s] is part of a motion.
-constexpr double least_rest_s = 0.05;
 /// Of the force at which a spool breaks away, beside that of forces [N].
 constexpr double breakaway_uncertainty_N = 0.5;
 
@@ -25,70 +22,6 @@ double value_or(const recording::Recording& recording, Channel channel, std::siz
   const double value = recording[channel][k];
   return std::isfinite(value) ? value : otherwise;
 }
-
-/// Of even motion one way until friction has its full size [m].
-constexpr double settling_travel_m = 4e-5;
-
-/// What the spool does at a sample.
-struct Doing {
-  int direction;         ///< 1 opening, -1 closing, else 0
-  bool slides;           ///< friction has its full size away from both stops: in the mean, if it sticks and slips
-  bool metered;          ///< slow enough for a flow meter, the edge open
-  double broke_after_s;  ///< > 0: it broke away after this rest
-};
-
-/// Finds it from the state of the type's sensor, sample by sample. Under pressure every passage counts, evenly or by
-/// sticking and slipping; without, even motion alone: slips drive the iron through small loops there, which the
-/// sensor's loop makes too wide, and beside which friction is small.
-class SpoolTrack {
- public:
-  SpoolTrack(const model::Model& type, bool pressurised) : type_(type), pressurised_(pressurised) {}
-
-  Doing next(const sensor::ObserverState<double>& state, sensor::Status status, const sensor::Sample<double>& sample,
-             double position_m) {
-    const sensor::Motion motion = state.position.motion;
-    const bool usable = sensor::unusable(sample) == sensor::Status::none &&
-                        !sensor::has(status, sensor::Status::dithered | sensor::Status::position_fault);
-    const double speed_m_per_s = std::abs(state.position.velocity_m_per_s), stroke_m = type_.valve.stroke_m;
-    const bool between_ends = position_m > end_share * stroke_m && position_m < (1 - end_share) * stroke_m;
-    const bool full =
-        pressurised_ ? passes(usable, sample.time_step_s, position_m) : moves_evenly(usable, motion, position_m);
-    Doing out{pressurised_ ? static_cast<int>(passage_.way()) : direction_, false, false, 0};
-    out.slides = usable && full && speed_m_per_s < fastest_sliding_m_per_s && between_ends;
-    out.metered = usable && speed_m_per_s < fastest_metered_m_per_s && between_ends &&
-                  position_m > type_.observer->parameters.closed_below_m;
-    if (usable && rested_s_ > least_rest_s && motion != sensor::Motion::rest) out.broke_after_s = rested_s_;
-    rested_s_ = motion == sensor::Motion::rest ? state.friction.rest_s : 0;
-    ++sample_;
-    return out;
-  }
-  /// Where the last passage went on; what came after is none where it `ended()`.
-  [[nodiscard]] std::size_t went_on() const { return passage_.went_on(); }
-  [[nodiscard]] bool ended() const { return ended_; }
-
- private:
-  bool passes(bool usable, double step_s, double position_m) {
-    time_s_ += step_s;
-    if (!usable) passage_.begin(time_s_, position_m, 0);
-    ended_ = !usable || !passage_.goes_on(sample_, time_s_, position_m);
-    return passage_.worn();
-  }
-  bool moves_evenly(bool usable, sensor::Motion motion, double position_m) {
-    const int now = motion == sensor::Motion::opening ? 1 : motion == sensor::Motion::closing ? -1 : 0;
-    travelled_m_ = now == direction_ && usable ? travelled_m_ + now * (position_m - position_m_) : 0;
-    direction_ = now;
-    position_m_ = position_m;
-    return now != 0 && travelled_m_ > settling_travel_m;
-  }
-
-  const model::Model& type_;
-  bool pressurised_;
-  Passage passage_;
-  std::size_t sample_ = 0;
-  bool ended_ = false;
-  int direction_ = 0;
-  double time_s_ = 0, travelled_m_ = 0, position_m_ = NAN, rested_s_ = 0;
-};
 
 }  // namespace
 
@@ -123,7 +56,7 @@ void UnitEvidence::prepare(const UnitRun& of) {
   run.has_flow = run.pressurised && recording.has(Channel::flow_reference);
   estimation::RunningSensor sensor(&type, type_.valve.rated_flow_m3_per_s);
   const estimation::Columns columns = operating_columns(recording);
-  SpoolTrack track(type_, run.pressurised);
+  SpoolTrack track(type, type_.valve.stroke_m, run.pressurised);
   std::size_t ended = 0;  // the last passage
   double before_s = columns.time_s.empty() ? 0 : columns.time_s[0];
   estimation::run(sensor, columns, [&](std::size_t k, const sensor::Estimate<double>& estimate) {

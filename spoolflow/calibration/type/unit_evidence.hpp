@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "spoolflow/calibration/type/spool_track.hpp"
 #include "spoolflow/calibration/type/variation.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/numerics/meter_lag.hpp"
@@ -47,18 +48,12 @@ inline constexpr double unit_force_residual_N = 0.25;
 /// The reading of the position at the closed end [m], one standard deviation.
 inline constexpr double closed_reading_uncertainty_m = 1e-6;
 
-/// A row is a mean over so much travel [m] or time [s], whichever ends first.
+/// A row is a mean over so much travel [m] or time [s], whichever ends first. None lies above the highest pressure
+/// difference of the maps.
 inline constexpr double row_travel_m = 1e-4, row_time_s = 0.5;
-/// A spool that moves faster [m/s] gives no row of force, ...
-inline constexpr double fastest_sliding_m_per_s = 0.03;
-/// ... faster than that no row of flow, which would show the meter's lag rather than the edge.
-inline constexpr double fastest_metered_m_per_s = 2e-3;
 /// A shorter row [s] is none: a spool that slips shows the meter's lag before its speed shows, and friction off its
 /// mean.
 inline constexpr double least_row_s = 0.02;
-/// So close to either end [share of the stroke] stops may carry force, and a spool that overshoots leaves the maps: no
-/// row of force or flow. Nor is there one above the highest pressure difference of the maps.
-inline constexpr double end_share = 0.015;
 inline constexpr double resistance_uncertainty_share = 0.04;  ///< of copper: 10 K that nobody knows of the winding
 
 /// One standard deviation of a row of force [N] while the spool slides, and of a row of flow [m3/s].
