@@ -93,6 +93,12 @@ TEST_F(WholeValve, AModelOfBothDirectionsTakesTheActiveCoilsCurrentForTheOtherIs
   EXPECT_EQ(content("both_estimate.csv").find("other_direction"), std::string::npos);
 }
 
+TEST_F(WholeValve, ReferencesMoveNoModelOfBothDirectionsWhateverTheRecordingHas) {
+  write("ref.toml", "[[reference]]\nkind = \"meter\"\n");
+  expect_refused("recalibrate whole.json both.csv --references ref.toml -o moved.json",
+                 {"the model is of both directions of flow"});
+}
+
 TEST_F(WholeValve, WithoutAnyCoilCurrentIsRefused) {
   write("none.csv", "time_s,position_mm,current_a_A\n0,0.1,0.5\n0.001,0.1,0.5\n");
   expect_refused("estimate whole.json none.csv -o estimate.csv", {"none.csv", "current_a", "current_b"});

@@ -35,6 +35,7 @@ std::vector<recording::Recording> recordings_of(const MachineFiles& from, double
 
 calibration::RecalibratedValve recalibrated(const model::Model& model, const MachineFiles& from,
                                             model::Adaptation how) {
+  calibration::require_movable(model);  // before files are read that only another model needs
   const std::vector<recording::Reference> references = recording::read_references(from.references);
   const std::vector<recording::Recording> recordings = recordings_of(from, model.valve.stroke_m);
   calibration::RecalibratedValve out = calibration::recalibrate(model, recordings, references, std::move(how));

@@ -13,24 +13,6 @@ namespace {
 
 constexpr double um_per_m = 1e6;
 
-void require_unit(const model::Model& model) {
-  if (model.whole()) {
-    throw CalibrationError(model.valve.name +
-                           ": the model is of both directions of flow, and references move one of one direction; make "
-                           "a model of each direction's benches");
-  }
-  if (!model.observer) {
-    throw CalibrationError(model.valve.name +
-                           ": the model has the condensed sensor alone; calibrate the valve with solenoid_dynamic, and "
-                           "axial_force_map at two or more oil temperatures");
-  }
-  if (model.type && !model.type->unit) {
-    throw CalibrationError(model.valve.name +
-                           ": the model is of a type, and references are of one unit; make the unit's with `spoolflow "
-                           "calibrate UNIT.toml --type TYPE.json`");
-  }
-}
-
 void require_their_recordings(const std::vector<recording::Recording>& recordings,
                               const std::vector<recording::Reference>& references) {
   std::vector<std::string> files;
@@ -177,9 +159,27 @@ void put_log(model::Adaptation how, RecalibratedValve& out) {
 
 }  // namespace
 
+void require_movable(const model::Model& model) {
+  if (model.whole()) {
+    throw CalibrationError(model.valve.name +
+                           ": the model is of both directions of flow, and references move one of one direction; make "
+                           "a model of each direction's benches");
+  }
+  if (!model.observer) {
+    throw CalibrationError(model.valve.name +
+                           ": the model has the condensed sensor alone; calibrate the valve with solenoid_dynamic, and "
+                           "axial_force_map at two or more oil temperatures");
+  }
+  if (model.type && !model.type->unit) {
+    throw CalibrationError(model.valve.name +
+                           ": the model is of a type, and references are of one unit; make the unit's with `spoolflow "
+                           "calibrate UNIT.toml --type TYPE.json`");
+  }
+}
+
 RecalibratedValve recalibrate(const model::Model& model, const std::vector<recording::Recording>& recordings,
                               const std::vector<recording::Reference>& references, model::Adaptation how) {
-  require_unit(model);
+  require_movable(model);
   require_their_recordings(recordings, references);
   RecalibratedValve out{model, wear_of(model), wear_of(model), {}};
   const MachineEvidence evidence = evidence_of(model, recordings, references);
@@ -192,7 +192,7 @@ RecalibratedValve recalibrate(const model::Model& model, const std::vector<recor
 }
 
 RecalibratedValve gone_back(const model::Model& model, std::size_t state, model::Adaptation how) {
-  require_unit(model);
+  require_movable(model);
   const std::vector<model::WearState> states = wear_states(model);
   if (state >= states.size()) {
     throw CalibrationError(fmt::format("{}: the model has no state {}; its states are 0, as calibrated, to {}",

@@ -18,11 +18,15 @@ struct RecalibratedValve {
   std::vector<std::string> findings;  ///< sentences: what was changed, left out, or stays, and why
 };
 
+/// Whether references move that model. Throws CalibrationError where it is of a whole valve, of a type, or without an
+/// observer.
+void require_movable(const model::Model& model);
+
 /// The model moved on: position zero, friction in operation and the edges' width, each where the evidence pays for it,
 /// else as it was to the last bit. `how` has tool, time and the model file's checksum; the rest is filled in and put at
-/// the end of the provenance. Throws RecordingError or CalibrationError: a model of a whole valve, of a type, or
-/// without an observer; a reference of a recording that is not given; references that contradict forces or each other,
-/// with the likely cause; a change beyond what is moved.
+/// the end of the provenance. Throws RecordingError or CalibrationError: a model that is not movable; a reference of a
+/// recording that is not given; references that contradict forces or each other, with the likely cause; a change beyond
+/// what is moved.
 [[nodiscard]] RecalibratedValve recalibrate(const model::Model& model,
                                             const std::vector<recording::Recording>& recordings,
                                             const std::vector<recording::Reference>& references, model::Adaptation how);
