@@ -16,7 +16,8 @@ struct Found {
   std::exception_ptr failure;  ///< no exception may pass through the library
 };
 
-herr_t look_at_object(hid_t file, const char* name, const H5O_info_t* info, void* found) {
+// `info` is what H5Ovisit2 gives: H5O_info_t, which HDF5 1.12 and later call H5O_info1_t.
+herr_t look_at_object(hid_t file, const char* name, const auto* info, void* found) {
   if (info->type != H5O_TYPE_DATASET) return 0;
   Found& out = *static_cast<Found*>(found);
   try {

@@ -127,7 +127,8 @@ class Hdf5Table final : public VectorTable {
     double offset = 0.0;
   };
 
-  static herr_t visit(hid_t file, const char* name, const H5O_info_t* info, void* table) {
+  // `info` is what H5Ovisit2 gives: H5O_info_t, which HDF5 1.12 and later call H5O_info1_t.
+  static herr_t visit(hid_t file, const char* name, const auto* info, void* table) {
     if (info->type != H5O_TYPE_DATASET) return 0;
     try {
       static_cast<Hdf5Table*>(table)->list(file, name);

@@ -133,7 +133,7 @@ class MatTable final : public VectorTable {
       const Hdf5Handle hdf5(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
       if (hdf5.valid()) refuse_other_files(hdf5.id(), file());
     }
-    Mat_LogInitFunc("spoolflow", [](int, char*) {});
+    Mat_LogInitFunc("spoolflow", [](int, auto* /*char, in newer versions const char*/) {});
     refuse_cut_mat_file(path);
     mat_.reset(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
     if (!mat_) refuse_damaged("MATLAB's format is not found in it");
