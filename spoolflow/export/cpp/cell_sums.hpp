@@ -80,7 +80,8 @@ void sum_cells(const sensor::CondensedTables<T>& valve, sensor::CondensedState<T
     CellSum<T> magnetic_force, spring, flow, width, pressure;
     for (int k = 0; k < currents; ++k) {
       const T current_A = (T(k) + T(0.5)) / (T(currents_a_cell) * valve.cells_per_A);
-      const auto& answer = step(valve, state, {T(0), current_A, T(0), (T(p) + T(0.5)) / valve.cells_per_m, T(0)});
+      const sensor::Sample<T> sample{T(0), current_A, T(0), (T(p) + T(0.5)) / valve.cells_per_m, T(0)};
+      const auto& answer = step(valve, state, sample);
       magnetic_force.add(answer.magnetic_force_N);
       spring.add(answer.spring_force_N);
       flow.add(answer.flow_m3_per_s);
