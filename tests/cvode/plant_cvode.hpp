@@ -13,6 +13,10 @@
 
 #include "spoolflow/rig/plant/plant_memory.hpp"
 
+#ifndef SUN_COMM_NULL  // SUNDIALS 7 and later have it
+#define SUN_COMM_NULL nullptr
+#endif
+
 namespace spoolflow::rig::reference {
 
 class PlantCvode {
@@ -23,7 +27,7 @@ class PlantCvode {
         state_(state),
         constants_(plant_constants(parameters, state, PlantInput{})),
         restart_(restart) {
-    check(SUNContext_Create(nullptr, &context_), "SUNContext_Create");
+    check(SUNContext_Create(SUN_COMM_NULL, &context_), "SUNContext_Create");
     y_ = N_VNew_Serial(plant_states, context_);
     const N_Vector tolerance = N_VNew_Serial(plant_states, context_);
     // One part of the relative tolerance in the full scale of each state.
