@@ -67,6 +67,14 @@ struct Calls {
   }
 };
 
+// Newer versions deprecate it for XML_GetCurrentLineNumber64, which older ones do not have.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+std::uint64_t current_line(XML_Parser parser) {
+  return XML_GetCurrentLineNumber(parser);
+}
+#pragma GCC diagnostic pop
+
 }  // namespace
 
 std::string_view XmlAttributes::get(std::string_view name) const {
@@ -105,8 +113,8 @@ void read_xml(XlsxArchive::Part part, XmlListener& listener) {
     if (status != XML_STATUS_ERROR) continue;
     const XML_Error error = XML_GetErrorCode(parser.get());
     if (error == XML_ERROR_NO_MEMORY) throw std::bad_alloc();
-    refuse_xlsx(part.what(), fmt::format("is no XML: {} in line {}", XML_ErrorString(error),
-                                         XML_GetCurrentLineNumber(parser.get())));
+    refuse_xlsx(part.what(),
+                fmt::format("is no XML: {} in line {}", XML_ErrorString(error), current_line(parser.get())));
   }
 }
 
