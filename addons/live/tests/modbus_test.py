@@ -6,12 +6,11 @@ import os
 import re
 import shutil
 import socket
+import struct
 import sys
 import tempfile
 
 from pymodbus.client import ModbusTcpClient
-from pymodbus.constants import Endian
-from pymodbus.payload import BinaryPayloadDecoder
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from served import Live  # noqa: E402
@@ -21,15 +20,11 @@ HEAD, PER_VALVE = 16, 32
 
 
 def valve(client, k):
-    answer = client.read_input_registers(HEAD + PER_VALVE * k, PER_VALVE, slave=1)
+    answer = client.read_input_registers(HEAD + PER_VALVE * k, count=PER_VALVE, slave=1)
     assert not answer.isError(), answer
-    read = BinaryPayloadDecoder.fromRegisters(answer.registers, byteorder=Endian.Big, wordorder=Endian.Big)
-    names = ("flow", "lower", "upper", "pressure_difference", "rated")
-    out = {name: read.decode_32bit_float() for name in names}
-    out["status"] = read.decode_32bit_uint()
-    out["ne107"], out["stalled"] = read.decode_16bit_uint(), read.decode_16bit_uint()
-    out["samples"], out["energy"] = read.decode_64bit_uint(), read.decode_32bit_float()
-    out["id"] = read.decode_string(24).rstrip(b"\0").decode()
+    names = ("flow", "lower", "upper", "pressure_difference", "rated", "status", "ne107", "stalled", "samples", "energy", "id")
+    out = dict(zip(names, struct.unpack(">5f I 2H Q f 24s", struct.pack(f">{PER_VALVE}H", *answer.registers))))
+    out["id"] = out["id"].rstrip(b"\0").decode()
     return out
 
 
@@ -46,7 +41,7 @@ try:
         slow.send(b"\0\1\0\0\0\6")  # a request that never ends must hold nobody up
         client = ModbusTcpClient("127.0.0.1", port=port)
         assert client.connect()
-        head = client.read_holding_registers(0, HEAD, slave=1).registers
+        head = client.read_holding_registers(0, count=HEAD, slave=1).registers
         assert head[:4] == [0x5346, 1, 2, PER_VALVE], head
         while (registers := valve(client, 0))["samples"] < 100 or math.isnan(registers["flow"]):
             pass
@@ -59,10 +54,10 @@ try:
         assert silent["id"] == "silent" and silent["stalled"] == 1 and silent["ne107"] == 3, silent
         assert math.isnan(silent["flow"]), silent
         for refused in (client.write_register(0, 1, slave=1), client.write_registers(16, [1, 2], slave=1),
-                        client.write_coil(0, True, slave=1), client.read_coils(0, 1, slave=1)):
+                        client.write_coil(0, True, slave=1), client.read_coils(0, count=1, slave=1)):
             assert refused.isError() and refused.exception_code == 1, refused
-        assert client.read_input_registers(HEAD + 2 * PER_VALVE, 1, slave=1).exception_code == 2
-        assert client.read_input_registers(0, 1, slave=9).exception_code == 11
+        assert client.read_input_registers(HEAD + 2 * PER_VALVE, count=1, slave=1).exception_code == 2
+        assert client.read_input_registers(0, count=1, slave=9).exception_code == 11
         outputs = json.loads(live.ask("/api/v1/site")[2])["outputs"]["modbus"]
         assert outputs["sent"] > 5 and outputs["connected"] >= 1 and outputs["trouble"] == "", outputs
         assert 'spoolflow_output_sent_total{output="modbus"}' in live.ask("/metrics")[2]
