@@ -1,6 +1,7 @@
 /// What the spool does, found from a signal with noise, drift and faults, at every sampling rate.
 #include "spoolflow/sensor/signals/position_track.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>

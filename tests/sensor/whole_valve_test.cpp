@@ -66,7 +66,7 @@ TEST(WholeValve, KnowsSignAndSizeOfTheFlowThroughTheCentre) {
     int outside = 0, samples = 0;
     for (const ValveSample& sample : run_of(sides.law, out_and_back(side_a ? 30e5 : 60e5))) {
       time_s += sample_s;
-      const Estimate<double>& answer = step(sides.whole, state, to_side(sample.measured, side_a));
+      const Estimate<double> answer = step(sides.whole, state, to_side(sample.measured, side_a));
       const double truth = side_a ? -sample.flow_m3_per_s : sample.flow_m3_per_s;
       if (has(answer.status, Status::closed)) {
         EXPECT_LT(std::abs(answer.flow_m3_per_s), 0.01 * sides.law.full_scale_m3_per_s());
@@ -136,8 +136,8 @@ TEST(WholeValve, DoubtsAFlowToWhichTheCylinderBehindItHasNotSettled) {
   double before = 0, moving = 0, time_s = 0;
   for (const ValveSample& sample : run_of(sides.law, course)) {
     time_s += sample_s;
-    const Estimate<double>& answer = step(sides.whole, cylinder, to_side(sample.measured, true));
-    const Estimate<double>& sure = step(equal_flows.whole, motor, to_side(sample.measured, true));
+    const Estimate<double> answer = step(sides.whole, cylinder, to_side(sample.measured, true));
+    const Estimate<double> sure = step(equal_flows.whole, motor, to_side(sample.measured, true));
     EXPECT_EQ(answer.flow_m3_per_s, sure.flow_m3_per_s);
     const auto added = [&](double end, double sure_end) {  // by the load alone
       return std::sqrt(squared(answer.flow_m3_per_s - end) - squared(answer.flow_m3_per_s - sure_end));
