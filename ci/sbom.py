@@ -40,6 +40,16 @@ def components():
     return rows
 
 
+def unversioned(package):
+    """The same for libfmt9 and libfmt10, libssl3 and libssl3t64, libboost1.74-dev and libboost1.83-dev: NOTICE serves every release."""
+    return re.sub(r"t64$|[-.0-9]+", "", package)
+
+
+def installed():
+    """This machine's packages by their unversioned names."""
+    return {unversioned(package): package for package in output_of("dpkg-query", "--show", "--showformat", "${Package}\n").split()}
+
+
 def linked_libraries(programs):
     """(program, library, path) of each library that a program itself names as needed."""
     for program in programs:
@@ -71,7 +81,8 @@ def check_headers(build):
         if not re.match(r"(.*/)?(tests|bench|examples)/", target.split(":")[0]):
             included.update(path.strip() for path in paths if path.strip().startswith("/usr/"))
     owners = set(owners_of(included).values())
-    named = sources_of(row["package"] for row in components() if not row["package"].startswith("npm:"))
+    here = installed()
+    named = sources_of(here[name] for row in components() if (name := unversioned(row["package"])) in here)
     missing = sorted(source for source in sources_of(owners) - named if not SYSTEM_SOURCES.match(source))
     if missing:
         sys.exit(f"sbom: headers of {', '.join(missing)} are compiled in, which NOTICE does not name")
@@ -104,23 +115,26 @@ def package(name, version, licence, origin):
 
 def document(programs):
     rows = components()
-    named = {row["package"] for row in rows}
+    named = {unversioned(row["package"]) for row in rows}
     linked = list(linked_libraries(programs))
     owners = owners_of({path for _, _, path in linked})
     for program, library, path in linked:
         owner = owners.get(path, "none")
-        if owner not in named and owner not in SYSTEM:
+        if unversioned(owner) not in named and owner not in SYSTEM:
             sys.exit(f"sbom: {program} is linked with {library} of package {owner}, which NOTICE does not name")
-    used = set(owners.values())
+    used = {unversioned(owner): owner for owner in owners.values()}
+    here = installed() | used
     own = package("spoolflow", project_version(), "Apache-2.0", "NOASSERTION")
     packages, relations = [own], []
     for row in rows:
-        version = version_of(row["package"])
-        if not version or (row["in"] == "shared" and row["package"] not in used):
+        name = unversioned(row["package"])
+        found = here.get(name, row["package"])
+        version = version_of(found)
+        if not version or (row["in"] == "shared" and name not in used):
             continue  # of an add-on that is not among the programs
         part = package(row["name"], version, row["licence"], row["origin"])
         part["externalRefs"] = [{"referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl",
-                                 "referenceLocator": address_of(row["package"], version)}]
+                                 "referenceLocator": address_of(found, version)}]
         packages.append(part)
         relations.append({"spdxElementId": own["SPDXID"], "relationshipType": RELATION[row["in"]],
                           "relatedSpdxElement": part["SPDXID"]})
