@@ -1,7 +1,6 @@
 #pragma once
 /// Friction of spool and armature: known while they slide, bounded while they stick, and estimated there from the
 /// micrometres by which the contact gives way (pre-sliding).
-#include <cmath>
 #include <type_traits>
 
 #include "spoolflow/sensor/basis/compiler.hpp"

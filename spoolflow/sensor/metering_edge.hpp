@@ -1,5 +1,4 @@
 #pragma once
-#include <cmath>
 
 #include "spoolflow/sensor/basis/compiler.hpp"
 #include "spoolflow/sensor/basis/table.hpp"

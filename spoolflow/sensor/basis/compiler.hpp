@@ -20,6 +20,11 @@
 #define SPOOLFLOW_INLINE_LAMBDA
 #endif
 
+// With -ffreestanding GCC from 13 on does not have it.
+#if !SPOOLFLOW_EXTENSIONS || __STDC_HOSTED__
+#include <cmath>
+#endif
+
 /// Whether bits_as() may stand in a constant expression. Where it may not, exported tables are built at the program's
 /// start, in RAM; a page of parameters in flash is none the worse.
 #if SPOOLFLOW_EXTENSIONS
@@ -97,18 +102,27 @@ constexpr double magnitude(double value) {
 }
 #endif
 
+/// The root of a number >= 0.
+inline float sqrt(float value) {
 #if SPOOLFLOW_EXTENSIONS && defined(__ARM_FP) && defined(__arm__)
-#define SPOOLFLOW_ROOT_OF_UNIT 1
-/// The unit's instruction and nothing else: for the sake of errno a compiler would also call the library's sqrtf, which
-/// firmware need not have.
-inline float root_of_unit(float value) {
+  // The unit's instruction and nothing else: for the sake of errno a compiler would also call the library's sqrtf,
+  // which firmware need not have.
   float root;
   __asm__("vsqrt.f32 %0, %1" : "=t"(root) : "t"(value));
   return root;
-}
+#elif SPOOLFLOW_EXTENSIONS
+  return __builtin_sqrtf(value);
 #else
-#define SPOOLFLOW_ROOT_OF_UNIT 0
+  return std::sqrt(value);
 #endif
+}
+inline double sqrt(double value) {
+#if SPOOLFLOW_EXTENSIONS
+  return __builtin_sqrt(value);
+#else
+  return std::sqrt(value);
+#endif
+}
 
 #if defined(__GNUC__)
 #pragma GCC diagnostic push

@@ -3,7 +3,6 @@
 /// automatic-differentiation number in calibration, which overloads these for itself, found by argument-dependent
 /// lookup.
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <type_traits>
 
@@ -29,18 +28,6 @@ using Numbers = std::array<T, static_cast<unsigned>(Count)>;
 template <class T, IfNumber<T> = 0>
 constexpr int table_index(T value) {
   return static_cast<int>(value);
-}
-
-/// The root of a number >= 0.
-inline float sqrt(float value) {
-#if SPOOLFLOW_ROOT_OF_UNIT
-  return root_of_unit(value);
-#else
-  return std::sqrt(value);
-#endif
-}
-inline double sqrt(double value) {
-  return std::sqrt(value);
 }
 
 /// Whether 0 <= value < highest, where highest > 0.
