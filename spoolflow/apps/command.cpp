@@ -68,6 +68,11 @@ class HelpPage : public CLI::Formatter {
   std::string make_option_opts(const CLI::Option* option) const override {
     if (option->get_positional()) return {};
     std::string text = CLI::Formatter::make_option_opts(option);
+    const std::string value = option->get_default_str();
+    const std::string in_brackets = " [" + value + "] ";  // by newer versions of CLI11; by older ones =value
+    if (const auto at = text.find(in_brackets); !value.empty() && at != std::string::npos) {
+      text.replace(at, in_brackets.size(), "=" + value);
+    }
     while (text.ends_with(' ')) text.pop_back();
     return text;
   }
