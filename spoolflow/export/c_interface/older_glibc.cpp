@@ -35,6 +35,10 @@ int spoolflow_fstat64(int file, void* status) SPOOLFLOW_IN_PLACE_OF("fstat64");
 int spoolflow_fstat64(int file, void* status) {
   return spoolflow_fxstat64(structure_version, file, status);
 }
+int spoolflow_fstat(int file, void* status) SPOOLFLOW_IN_PLACE_OF("fstat");  // of the same structure
+int spoolflow_fstat(int file, void* status) {
+  return spoolflow_fxstat64(structure_version, file, status);
+}
 int spoolflow_stat(const char* path, void* status) SPOOLFLOW_IN_PLACE_OF("stat");
 int spoolflow_stat(const char* path, void* status) {
   return spoolflow_xstat(structure_version, path, status);
@@ -71,6 +75,24 @@ unsigned spoolflow_random() SPOOLFLOW_IN_PLACE_OF("arc4random");
 unsigned spoolflow_random() {
   unsigned bits = 0;
   return getentropy(&bits, sizeof bits) == 0 ? bits : 0;
+}
+
+/// Of glibc 2.38, for C23, which also reads binary numbers; headers turn calls of the older ones into calls of these.
+unsigned long spoolflow_older_strtoul(const char* text, char** end, int base) __asm__("strtoul");
+unsigned long spoolflow_strtoul(const char* text, char** end, int base) SPOOLFLOW_IN_PLACE_OF("__isoc23_strtoul");
+unsigned long spoolflow_strtoul(const char* text, char** end, int base) {
+  return spoolflow_older_strtoul(text, end, base);
+}
+long long spoolflow_older_strtoll(const char* text, char** end, int base) __asm__("strtoll");
+long long spoolflow_strtoll(const char* text, char** end, int base) SPOOLFLOW_IN_PLACE_OF("__isoc23_strtoll");
+long long spoolflow_strtoll(const char* text, char** end, int base) {
+  return spoolflow_older_strtoll(text, end, base);
+}
+unsigned long long spoolflow_older_strtoull(const char* text, char** end, int base) __asm__("strtoull");
+unsigned long long spoolflow_strtoull(const char* text, char** end, int base)
+    SPOOLFLOW_IN_PLACE_OF("__isoc23_strtoull");
+unsigned long long spoolflow_strtoull(const char* text, char** end, int base) {
+  return spoolflow_older_strtoull(text, end, base);
 }
 
 }  // extern "C"
