@@ -16,9 +16,11 @@ target_compile_features(spoolflow_settings INTERFACE cxx_std_20)
 add_library(spoolflow_warnings INTERFACE)
 target_compile_options(spoolflow_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
                                                     -Wnon-virtual-dtor -Woverloaded-virtual $<$<BOOL:${SPOOLFLOW_DEVELOPER}>:-Werror>)
-if(SPOOLFLOW_SANITIZE)
-  # Clang also finds names of other files that were joined to this one; GCC looks for shadows inside one.
+if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
+  # It also finds names of other files that were joined to this one; GCC looks for shadows inside one.
   target_compile_options(spoolflow_warnings INTERFACE -Wno-shadow)
+endif()
+if(SPOOLFLOW_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
   if(CMAKE_CXX_COMPILER_ID STREQUAL Clang)
