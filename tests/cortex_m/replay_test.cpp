@@ -44,8 +44,9 @@ void expect_fit_for_a_valve(const Replay& replay, const Limits& limits) {
   EXPECT_LT(replay.flash_bytes, limits.flash_bytes);
 }
 
-/// docs/embedded.md shows these figures; not those of a sanitized build, whose model differs in last digits.
-void expect_documented(const Core& core, const char* sensor, const Replay& replay) {
+/// docs/embedded.md shows these figures, of GCC 12; not those of a sanitized build, whose model differs in last digits.
+void expect_documented([[maybe_unused]] const Core& core, [[maybe_unused]] const char* sensor,
+                       [[maybe_unused]] const Replay& replay) {
 #ifdef SPOOLFLOW_EMBEDDED_PAGE
   if (core.name == std::string("Cortex-M7")) return;  // the page says that it costs as the M4F
   std::ifstream page(SPOOLFLOW_EMBEDDED_PAGE);
