@@ -121,7 +121,7 @@ void UnitEvidence::add_breakaway(Run& run, std::size_t sample, double rested_s, 
   }
 }
 
-/// Numbers the rows, one after the other.
+/// Numbers the rows, one after the other. Break-aways in the course of a passage have rows of their own.
 void UnitEvidence::find_rows(Run& run) {
   const double force_N = force_row_uncertainty_N(type_), flow_m3_per_s = flow_row_uncertainty_m3_per_s(type_);
   const auto number = [&](int Sample::*row, EvidenceOf kind, double deviation, const auto& others) {
@@ -130,7 +130,9 @@ void UnitEvidence::find_rows(Run& run) {
     std::size_t first = 0;
     const auto close = [&](std::size_t end) {
       if (open >= 0 && kind != EvidenceOf::breakaway && lasted_s < least_row_s) {
-        for (std::size_t k = first; k < end; ++k) run.samples[k].*row = -1;
+        for (std::size_t k = first; k < end; ++k) {
+          if (!others(run.samples[k])) run.samples[k].*row = -1;
+        }
         kinds_.pop_back();
         counts_.pop_back();
         deviations_.pop_back();
