@@ -90,6 +90,18 @@ async function readOut(figure) {
   }));
 }
 
+/// Waits until the cursor reads that time [s], or one that `wanted` takes; a page draws with its next frame.
+async function readsAt(figure, wanted) {
+  const there = typeof wanted === 'function' ? wanted : (time_s) => Math.abs(time_s - wanted) < 1e-9;
+  let now = await readOut(figure);
+  for (let tries = 0; !there(now.time_s) && tries < 100; ++tries) {
+    await figure.page().waitForTimeout(20);
+    now = await readOut(figure);
+  }
+  assert.ok(there(now.time_s), `the cursor reads ${now.time_s} s, not ${wanted}`);
+  return now.time_s;
+}
+
 function rowsOf(file) {
   const [head, ...lines] = readFileSync(join(folder, file), 'utf8').trim().split('\n');
   const names = head.split(',');
@@ -241,15 +253,15 @@ test('the keyboard moves the cursor by samples, zooms, and a screen reader annou
   const [from, to] = await range(figure);
   assert.ok(Math.abs((to - from) - (whole[1] - whole[0]) / 64) < 1e-6);
   await page.keyboard.press('ArrowRight');
-  const first = (await readOut(figure)).time_s;
+  const first = await readsAt(figure, (time_s) => time_s > 0);
   await page.keyboard.press('ArrowRight');
-  assert.ok(Math.abs((await readOut(figure)).time_s - first - 0.001) < 1e-9);
+  await readsAt(figure, first + 0.001);
   await page.keyboard.press('Shift+ArrowLeft');
-  assert.ok(Math.abs((await readOut(figure)).time_s - first + 0.009) < 1e-9);
+  await readsAt(figure, first - 0.009);
   await page.waitForFunction(() => document.querySelector('.unseen').textContent.includes('measured'));
   assert.match(await figure.locator('.unseen').textContent(), /L\/min.*bar.*mm.*status/);
   await page.keyboard.press('End');
-  assert.equal((await readOut(figure)).time_s, 19.999);
+  await readsAt(figure, 19.999);
   await page.keyboard.press('0');
   assert.deepEqual(await range(figure), whole);
 });
