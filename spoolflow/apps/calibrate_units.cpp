@@ -59,8 +59,8 @@ void print_unit(const std::string& direction, const calibration::UnitCalibration
 }
 
 /// How the units differ beside what the type took.
-void print_series(const std::string& direction, const calibration::Series& series) {
-  say("{} units{}, {} refused\n", series.units.size(), direction, series.refused());
+void print_series(const calibration::Series& series) {
+  say("{} units{}, {} refused\n", series.units.size(), series.direction, series.refused());
   say("  {:<18} {:>10} {:>10} {:>10} {:>6}\n", "between units", "tolerance", "spread", "mean", "Cpk");
   for (const calibration::SeriesParameter& each : series.parameters) {
     const auto [scale, unit_name] = calibration::written_unit(each.unit);
@@ -123,7 +123,8 @@ void write_series(const CalibrateArguments& arguments, const std::vector<Calibra
   }
   if (updated) updated->stream() << readable_text(next, arguments.updated_type);
   commit_together({page.get(), updated.get()});
-  for (std::size_t k = 0; !arguments.quiet && k < series.size(); ++k) print_series(of_direction(type, k), series[k]);
+  if (arguments.quiet) return;
+  for (const calibration::Series& each : series) print_series(each);
 }
 
 }  // namespace

@@ -76,8 +76,10 @@ def main(spoolflow, model, sources):
         return
     found, said = rules_by_cppcheck(spoolflow, model, sources)
     rules = {rule for _, rule in found}
-    # Newer versions of cppcheck do not find what breaks 2.4.
-    assert allowed - {"2.4"} <= rules <= allowed, f"the page names {sorted(allowed)}, cppcheck finds\n{said}"
+    version = subprocess.run(["cppcheck", "--version"], capture_output=True, text=True, check=True).stdout
+    if tuple(int(part) for part in version.split()[1].split(".")[:2]) > (2, 10) and "2.4" not in rules:
+        allowed = allowed - {"2.4"}  # newer versions do not find what breaks it
+    assert rules == allowed, f"the page names {sorted(allowed)}, cppcheck finds\n{said}"
     assert {rule for place, rule in found if place.startswith("valve_sensor.h")} == {"2.5"}, said  # macros for those who include it
 
 

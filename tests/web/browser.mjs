@@ -261,7 +261,7 @@ test('the keyboard moves the cursor by samples, zooms, and a screen reader annou
   await page.waitForFunction(() => document.querySelector('.unseen').textContent.includes('measured'));
   assert.match(await figure.locator('.unseen').textContent(), /L\/min.*bar.*mm.*status/);
   await page.keyboard.press('End');
-  await readsAt(figure, 19.999);
+  await readsAt(figure, (time_s) => time_s === 19.999);
   await page.keyboard.press('0');
   assert.deepEqual(await range(figure), whole);
 });

@@ -29,7 +29,7 @@ class Passage {
     begin(time_s, position_m, !moved ? 0 : ahead_m > 0 ? 1 : -1);
     return false;
   }
-  /// Begins anew from there; `way` is 1 opening, -1 closing, 0 neither.
+  /// Starts again from there; `way` is 1 opening, -1 closing, 0 neither.
   void begin(double time_s, double position_m, double way) {
     way_ = way;
     last_s_ = time_s;
