@@ -23,7 +23,7 @@ namespace {
 
 /// Of which direction of flow, where the model is of the whole valve.
 std::string of_direction(const model::Model& whole, std::size_t k) {
-  return whole.whole() ? k == 0 ? ", P to B" : ", P to A" : "";
+  return whole.whole() ? fmt::format(", {}", model::flow_of(model::directions(whole)[k])) : "";
 }
 
 /// How far apart units of the type lie beside what was taken before.

@@ -38,7 +38,7 @@ void write_corrected(std::ostream& out, const MonitorArguments& arguments, Monit
   model::write_model(out, corrected_model(from, watch));
 }
 
-void print_condition(const monitor::Monitor& watch, const model::Provenance& provenance) {
+void print_condition(const monitor::Monitor& watch, const model::Model& model) {
   print("NE 107: {}\n", monitor::name(watch.condition()));
   for (const monitor::Cause& cause : watch.causes())
     print("{:<20} odds {:.3g} to 1\n", monitor::name(cause.fault), cause.odds);
@@ -47,7 +47,7 @@ void print_condition(const monitor::Monitor& watch, const model::Provenance& pro
     print("{:<32} {:>12.5g} {:>12.3g} {:>12.5g} {:<4} {}\n", each.name, each.value, each.uncertainty_95, each.baseline,
           each.unit, monitor::name(each.state));
   }
-  if (const auto drift = monitor::wear_drift(provenance)) print("\ndrift {}\n", monitor::text_of(*drift));
+  for (const std::string& drift : monitor::drift_texts(model)) print("\ndrift {}\n", drift);
 }
 
 void refuse_other_kinds(const MonitorArguments& arguments) {
@@ -115,8 +115,7 @@ void monitor_recordings(const MonitorArguments& arguments) {
   if (page) report::write_monitor_report(page->stream(), model, watch, runs, trend, units);
   if (json) report::write_monitor_json(json->stream(), model, watch, runs, band.figures());
   commit_together({page ? &*page : nullptr, json ? &*json : nullptr, corrected ? &*corrected : nullptr});
-  if (arguments.json != "-" && arguments.report != "-" && arguments.adapt != "-")
-    print_condition(watch, model.provenance);
+  if (arguments.json != "-" && arguments.report != "-" && arguments.adapt != "-") print_condition(watch, model);
 }
 
 void add_monitor_command(CLI::App& program) {

@@ -23,13 +23,17 @@ namespace {
 void print_findings(const calibration::RecalibratedValve& valve) {
   constexpr double percent = 100, um_per_m = 1e6;
   for (const std::string& finding : valve.findings) say("{}\n", finding);
-  const std::vector<model::WearState> states = calibration::wear_states(valve.model);
   say("\n{:>5} {:>12} {:>10} {:>15}\n", "state", "edge width", "friction", "position zero");
-  for (std::size_t k = 0; k < states.size(); ++k) {
-    say("{:>5} {:>+10.1f} % {:>+8.0f} % {:>+12.1f} um\n", k, percent * states[k].edge_width,
-        percent * (states[k].friction_ratio - 1), um_per_m * states[k].position_zero_m);
-  }
-  if (const auto drift = monitor::wear_drift(valve.model.provenance)) say("\ndrift {}\n", monitor::text_of(*drift));
+  const auto row = [&](std::size_t number, const model::WearState& state, const std::string& direction) {
+    const std::string of = direction.empty() ? "" : fmt::format("   {}", model::flow_of(direction));
+    say("{:>5} {:>+10.1f} % {:>+8.0f} % {:>+12.1f} um{}\n", number, percent * state.edge_width,
+        percent * (state.friction_ratio - 1), um_per_m * state.position_zero_m, of);
+  };
+  row(0, {}, "");
+  std::size_t number = 0;
+  for (const model::Adaptation& each : valve.model.provenance.adaptations)
+    if (each.wear) row(++number, *each.wear, each.direction);
+  for (const std::string& drift : monitor::drift_texts(valve.model)) say("\ndrift {}\n", drift);
 }
 
 model::Adaptation how_from(const RecalibrateArguments& arguments) {
@@ -84,9 +88,9 @@ void add_recalibrate_command(CLI::App& program) {
       program,
       {"recalibrate",
        "move a valve's model on by what its machine knows of the oil that passed",
-       "MODEL.json of one direction with an observer; recordings of the valve at work with time, current and position, "
-       "better also voltage and oil temperature; and a file of [[reference]]: strokes of a cylinder, a pump, a flow "
-       "meter, the closed valve",
+       "MODEL.json with an observer; recordings of the valve at work with time, position and current, of a whole valve "
+       "both coils', better also voltage and oil temperature; and a file of [[reference]]: strokes of a cylinder, a "
+       "pump, a flow meter, the closed valve",
        "the model as JSON, moved where the evidence pays for it, with what changed, by how much and why in its "
        "provenance; the same on standard error",
        {"spoolflow recalibrate valve_a.json monday.csv --references boom.toml -o valve_a_monday.json",

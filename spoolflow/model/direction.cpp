@@ -9,6 +9,9 @@ Model of_direction(const Model& model, const std::string& direction) {
   if (!model.whole()) return out;
   out.valve.direction = direction;
   std::erase_if(out.provenance.quantities, [&](const KnownQuantity& each) { return each.direction != direction; });
+  std::erase_if(out.provenance.adaptations,
+                [&](const Adaptation& each) { return !each.direction.empty() && each.direction != direction; });
+  for (Adaptation& each : out.provenance.adaptations) each.direction.clear();
   if (direction == "a") {
     out.condensed = model.p_to_a->condensed;
     out.observer = model.p_to_a->observer;
@@ -29,6 +32,10 @@ void put_direction(Model& model, const std::string& direction, Model of_one) {
   model.observer = std::move(of_one.observer);
   model.evidence = std::move(of_one.evidence);
   model.type = std::move(of_one.type);
+}
+
+const char* flow_of(const std::string& direction) {
+  return direction == "a" ? "P to A" : "P to B";
 }
 
 std::vector<std::string> directions(const Model& model) {

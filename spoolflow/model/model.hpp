@@ -119,6 +119,8 @@ struct Model {
 /// Puts a model of one direction in the place of that of a whole valve; of one direction it takes the model's place.
 /// Valve and provenance stay.
 void put_direction(Model& model, const std::string& direction, Model of_one);
+/// "P to B" of "b", "P to A" of "a".
+[[nodiscard]] const char* flow_of(const std::string& direction);
 /// "b" and "a" of a whole valve, else its own.
 [[nodiscard]] std::vector<std::string> directions(const Model& model);
 

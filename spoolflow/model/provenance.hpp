@@ -45,7 +45,8 @@ struct Adaptation {
   std::vector<std::string> files;  ///< recordings, by their names among the inputs
   std::vector<Correction> corrections;
   std::vector<std::string> reasons = {};  ///< a sentence each
-  std::optional<WearState> wear = {};     ///< the model's after it, where references moved it
+  std::optional<WearState> wear = {};     ///< the model's after it, where references moved it or left it
+  std::string direction = {};             ///< of a whole valve: which one `wear` is of, "b" or "a"
 };
 inline constexpr std::string_view adaptation_protocol = "adaptation";
 

@@ -34,6 +34,12 @@ std::string sha256(const JsonNode& node) {
   return out;
 }
 
+std::string one_direction(const JsonNode& node) {
+  std::string out = node.text();
+  if (out != "a" && out != "b") node.refuse("is neither \"a\" nor \"b\"");
+  return out;
+}
+
 Adaptation adaptation(const JsonNode& node) {
   Adaptation out{tool_version(node.at("tool")), node.at("created").text(), sha256(node.at("adapted_from")), {}, {}};
   for (const JsonNode& file : node.at("files").elements()) out.files.push_back(file.text());
@@ -50,13 +56,17 @@ Adaptation adaptation(const JsonNode& node) {
                 wear.at("position_zero_m").number(-1e-3, 1e-3), wear.at("flow_share").number(0, 1),
                 wear.at("friction_share").number(0, 10)};
   }
+  if (node.has("direction")) out.direction = one_direction(node.at("direction"));
   return out;
 }
 
 KnownQuantity known_quantity(const JsonNode& node) {
-  KnownQuantity out{node.at("direction").text(), node.at("of").text(),   node.at("how").text(),
-                    node.at("from").text(),      node.at("unit").text(), {}};
-  if (out.direction != "a" && out.direction != "b") node.at("direction").refuse("is neither \"a\" nor \"b\"");
+  KnownQuantity out{one_direction(node.at("direction")),
+                    node.at("of").text(),
+                    node.at("how").text(),
+                    node.at("from").text(),
+                    node.at("unit").text(),
+                    {}};
   if (out.how != "measured" && out.how != "inferred" && out.how != "assumed")
     node.at("how").refuse("is neither \"measured\" nor \"inferred\" nor \"assumed\"");
   if (node.has("uncertainty_95")) out.uncertainty_95 = node.at("uncertainty_95").number(0, 1e15);

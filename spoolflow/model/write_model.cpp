@@ -47,6 +47,7 @@ Json provenance(const Provenance& provenance) {
                        {"position_zero_m", each.wear->position_zero_m},
                        {"flow_share", each.wear->flow_share},
                        {"friction_share", each.wear->friction_share}};
+    if (!each.direction.empty()) written["direction"] = each.direction;
   }
   if (!provenance.doubts.empty()) out["doubts"] = provenance.doubts;
   for (const KnownQuantity& each : provenance.quantities) {

@@ -156,7 +156,7 @@ model::Model adapted(const model::Model& model, const Findings& findings, model:
   return out;
 }
 
-std::optional<WearDrift> wear_drift(const model::Provenance& provenance) {
+std::optional<WearDrift> wear_drift(const model::Provenance& provenance, const std::string& direction) {
   const auto created_s = model::seconds_of(provenance.created);
   if (!created_s) return {};
   const auto calibrated_s = static_cast<double>(*created_s);
@@ -165,7 +165,7 @@ std::optional<WearDrift> wear_drift(const model::Provenance& provenance) {
   double last_s = calibrated_s;
   for (const model::Adaptation& each : provenance.adaptations) {
     const auto looked_s = model::seconds_of(each.created);
-    if (!each.wear || !looked_s) continue;
+    if (!each.wear || !looked_s || each.direction != direction) continue;
     const auto time_s = static_cast<double>(*looked_s);
     const model::WearState& wear = *each.wear;
     const auto known = [&](std::string_view of, double least, double hidden) {
@@ -194,6 +194,16 @@ std::string text_of(const WearDrift& drift) {
   return fmt::format("in 30 days: edge width {}, friction {}, position zero {} ({} looks in {:.0f} days)",
                      rate(drift.edge_width, percent, "%"), rate(drift.friction, percent, "%"),
                      rate(drift.position_zero_m, um_per_m, "um"), drift.looks, drift.days);
+}
+
+std::vector<std::string> drift_texts(const model::Model& model) {
+  std::vector<std::string> out;
+  for (const std::string& direction : model::directions(model)) {
+    const auto drift = wear_drift(model.provenance, model.whole() ? direction : "");
+    const std::string whose = model.whole() ? fmt::format("{} ", model::flow_of(direction)) : "";
+    if (drift) out.push_back(whose + text_of(*drift));
+  }
+  return out;
 }
 
 }  // namespace spoolflow::monitor

@@ -7,6 +7,7 @@
 ///     model::Model corrected = monitor::adapted(model, watch.findings(), {.tool_version = …, .created = …, …});
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/monitor/correction.hpp"
@@ -56,11 +57,14 @@ struct WearDrift {
   double days;               ///< from calibration to the last of them
 };
 
-/// A line through the model as calibrated and each state since, weighted by how well each is known. Nothing where
-/// references never looked at the valve, or all within a day.
-[[nodiscard]] std::optional<WearDrift> wear_drift(const model::Provenance& provenance);
+/// A line through the model as calibrated and each state since, weighted by how well each is known; `direction` of a
+/// whole valve. Nothing where references never looked at it, or all within a day.
+[[nodiscard]] std::optional<WearDrift> wear_drift(const model::Provenance& provenance,
+                                                  const std::string& direction = {});
 
 /// "in 30 days: edge width +0.4 +- 0.9 %, …"
 [[nodiscard]] std::string text_of(const WearDrift& drift);
+/// The same of each direction that has a drift; of a whole valve "P to B in 30 days: …".
+[[nodiscard]] std::vector<std::string> drift_texts(const model::Model& model);
 
 }  // namespace spoolflow::monitor

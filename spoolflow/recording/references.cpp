@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kind_names{"stroke", "pump", "meter", "closed"};
 constexpr std::array<std::string_view, 4> end_names{"marks", "pressure", "switch", "stalled"};
+constexpr std::array<std::string_view, 2> direction_names{"b", "a"};
 constexpr double rad_per_s_per_rpm = std::numbers::pi / 30;
 constexpr double percent = 0.01, m2_per_cm2 = 1e-4, m3_per_cm3 = 1e-6;
 
@@ -112,8 +113,9 @@ constexpr Range any_percent{0, 20, "the half width at 95 % in percent"};
 constexpr Range any_leakage{0, 20, "the half width at 95 % in L/min"};
 
 void read_stroke(const TomlTable& table, Reference& out) {
-  table.allow_only({"kind", "name", "recording", "ends", "marks", "area_cm2", "length_mm", "area_uncertainty_percent",
-                    "length_uncertainty_mm", "seal_leakage_L_min", "oil_column_cm3", "highest_pressure_bar"});
+  table.allow_only({"kind", "name", "recording", "direction", "ends", "marks", "area_cm2", "length_mm",
+                    "area_uncertainty_percent", "length_uncertainty_mm", "seal_leakage_L_min", "oil_column_cm3",
+                    "highest_pressure_bar"});
   out.ends = static_cast<EndsSeen>(choice(table, "ends", end_names));
   if (out.ends == EndsSeen::marks) out.marks = marks_of(table);
   if (out.ends != EndsSeen::marks && table.optional_text("marks")) {
@@ -136,7 +138,7 @@ void read_stroke(const TomlTable& table, Reference& out) {
 }
 
 void read_pump(const TomlTable& table, Reference& out) {
-  table.allow_only({"kind", "name", "recording", "marks", "displacement_cm3", "speed_rpm", "leakage_L_min",
+  table.allow_only({"kind", "name", "recording", "direction", "marks", "displacement_cm3", "speed_rpm", "leakage_L_min",
                     "displacement_uncertainty_percent", "leakage_uncertainty_L_min"});
   out.marks = marks_of(table);
   out.displacement_m3_per_rad =
@@ -154,7 +156,8 @@ void read_pump(const TomlTable& table, Reference& out) {
 }
 
 void read_meter(const TomlTable& table, Reference& out) {
-  table.allow_only({"kind", "name", "recording", "uncertainty_percent", "zero_uncertainty_L_min", "interval_s"});
+  table.allow_only(
+      {"kind", "name", "recording", "direction", "uncertainty_percent", "zero_uncertainty_L_min", "interval_s"});
   out.share_uncertainty = number_within(table, "uncertainty_percent", any_percent, 1.0) * percent;
   out.leakage_uncertainty_m3_per_s =
       units::m3_per_s_from_L_per_min(number_within(table, "zero_uncertainty_L_min", any_leakage, 0.1));
@@ -168,6 +171,8 @@ Reference reference_of(const TomlTable& table, std::size_t number) {
   out.place = place_of(table.table, table.file);
   out.name = table.optional_text("name").value_or(fmt::format("{} {}", name(out.kind), number));
   out.recording = table.optional_text("recording").value_or("");
+  if (out.kind != ReferenceKind::closed && table.optional_text("direction"))
+    out.direction = direction_names[choice(table, "direction", direction_names)];
   if (out.kind == ReferenceKind::stroke) read_stroke(table, out);
   if (out.kind == ReferenceKind::pump) read_pump(table, out);
   if (out.kind == ReferenceKind::meter) read_meter(table, out);

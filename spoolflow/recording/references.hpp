@@ -35,6 +35,7 @@ struct Reference {
   std::string name;       ///< for messages: as given, or its kind and number, "stroke 1"
   std::string recording;  ///< name of the one file that it holds for; empty: all
   std::string place;      ///< "references.toml, line 12"
+  std::string direction;  ///< of flow through the valve that it is of, "b" (P to B) or "a"; empty: not said
   EndsSeen ends{};        ///< of a stroke; `marks` of a pump
   std::vector<TimeMark> marks;
   double area_m2 = 0, length_m = 0;                         ///< of a stroke: what the port fills

@@ -93,10 +93,16 @@ TEST_F(WholeValve, AModelOfBothDirectionsTakesTheActiveCoilsCurrentForTheOtherIs
   EXPECT_EQ(content("both_estimate.csv").find("other_direction"), std::string::npos);
 }
 
-TEST_F(WholeValve, ReferencesMoveNoModelOfBothDirectionsWhateverTheRecordingHas) {
-  write("ref.toml", "[[reference]]\nkind = \"meter\"\n");
-  expect_refused("recalibrate whole.json both.csv --references ref.toml -o moved.json",
-                 {"the model is of both directions of flow"});
+TEST_F(WholeValve, ReferencesSayTheirDirectionAndTheSpoolRestsInTheCentre) {
+  write("stroke.toml",
+        "[[reference]]\nkind = \"pump\"\nmarks = \"marks.csv\"\ndisplacement_cm3 = 20\nspeed_rpm = 1500\n");
+  write("marks.csv", "begin_s,end_s\n2.5,3.5\n");
+  expect_refused("recalibrate whole.json both.csv --references stroke.toml -o moved.json",
+                 {"line 1: pump 1 does not say which direction"});
+  write("meter.toml", "[[reference]]\nkind = \"meter\"\n");
+  expect_refused("recalibrate whole.json both.csv --references meter.toml -o moved.json",
+                 {"both.csv", "the spool rests in the centre without current"});
+  expect_refused("recalibrate whole.json active.csv --references meter.toml -o moved.json", {"current_a is missing"});
 }
 
 TEST_F(WholeValve, WithoutAnyCoilCurrentIsRefused) {

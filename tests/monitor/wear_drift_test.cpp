@@ -42,5 +42,24 @@ TEST(WearDrift, IsNotStatedOfAValveThatNobodyLookedAtOrOnlyAtOnce) {
   EXPECT_FALSE(wear_drift(monitored));
 }
 
+TEST(WearDrift, OfAWholeValveIsThatOfEachDirectionByItself) {
+  model::Model valve{};
+  valve.p_to_a.emplace();
+  valve.provenance = worn_over({30, 60, 90});
+  const std::size_t looks = valve.provenance.adaptations.size();
+  for (std::size_t k = 0; k < looks; ++k) {
+    model::Adaptation& of_b = valve.provenance.adaptations[k];
+    of_b.direction = "b";
+    model::Adaptation of_a = of_b;
+    of_a.direction = "a";
+    of_a.wear->edge_width *= 2;
+    valve.provenance.adaptations.push_back(of_a);
+  }
+  const std::vector<std::string> drifts = drift_texts(valve);
+  ASSERT_EQ(drifts.size(), 2U);
+  EXPECT_THAT(drifts[0], testing::HasSubstr("P to B in 30 days: edge width +1 +- "));
+  EXPECT_THAT(drifts[1], testing::HasSubstr("P to A in 30 days: edge width +2 +- "));
+}
+
 }  // namespace
 }  // namespace spoolflow::monitor

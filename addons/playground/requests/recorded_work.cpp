@@ -87,7 +87,7 @@ Json calibrate(const Json& asked, const Outlet& outlet) {
     if (!model.whole() && *direction == 'a') break;
     const model::Model one = model.whole() ? model::of_direction(model, direction) : model;
     for (const report::SummaryLine& line : report::calibration_summary(one)) {
-      summary.push_back({{"direction", model.whole() ? (*direction == 'a' ? "P to A" : "P to B") : ""},
+      summary.push_back({{"direction", model.whole() ? model::flow_of(direction) : ""},
                          {"of", line.of},
                          {"value", line.value},
                          {"unit", line.unit},

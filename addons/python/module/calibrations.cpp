@@ -155,8 +155,8 @@ void add_calibrations(py::module_& module) {
     return kept(calibration::gone_back(model->model, state, how_from(model)).model);
   });
   module.def("drift", [](const SharedModel& model) -> std::optional<std::string> {
-    const auto drift = monitor::wear_drift(model->model.provenance);
-    return drift ? std::optional(monitor::text_of(*drift)) : std::nullopt;
+    const std::vector<std::string> drifts = monitor::drift_texts(model->model);
+    return drifts.empty() ? std::nullopt : std::optional(fmt::format("{}", fmt::join(drifts, "; ")));
   });
   module.def("campaign_files", &campaign_files);
   module.def("in_environment", &in_environment);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/recording/coil_channels.hpp"
 #include "spoolflow/recording/reader.hpp"
 
 namespace spoolflow::apps {
@@ -12,12 +13,19 @@ namespace {
 
 using recording::Channel;
 
-std::vector<recording::Recording> recordings_of(const MachineFiles& from, double stroke_m) {
+std::vector<recording::Recording> recordings_of(const MachineFiles& from, const model::Model& model) {
   recording::ReadOptions options;
-  options.required = {Channel::time, Channel::current, Channel::position};
-  options.optional = {Channel::voltage, Channel::oil_temperature, Channel::pressure_difference, Channel::flow_reference,
-                      Channel::test};
-  options.stroke_m = stroke_m;
+  options.required = {Channel::time, Channel::position};
+  options.optional = {Channel::oil_temperature, Channel::pressure_difference, Channel::flow_reference, Channel::test};
+  const std::vector<recording::CoilChannels> coils =
+      model.whole() ? std::vector<recording::CoilChannels>{{Channel::current_a, Channel::voltage_a},
+                                                           {Channel::current_b, Channel::voltage_b}}
+                    : std::vector<recording::CoilChannels>{{Channel::current, Channel::voltage}};
+  for (const recording::CoilChannels& coil : coils) {
+    options.required.push_back(coil.current);
+    options.optional.push_back(coil.voltage);
+  }
+  options.stroke_m = model.valve.stroke_m;
   options.channels = from.channels;
   std::vector<recording::Recording> out;
   for (const std::filesystem::path& file : from.recordings) {
@@ -37,7 +45,7 @@ calibration::RecalibratedValve recalibrated(const model::Model& model, const Mac
                                             model::Adaptation how) {
   calibration::require_movable(model);  // before files are read that only another model needs
   const std::vector<recording::Reference> references = recording::read_references(from.references);
-  const std::vector<recording::Recording> recordings = recordings_of(from, model.valve.stroke_m);
+  const std::vector<recording::Recording> recordings = recordings_of(from, model);
   calibration::RecalibratedValve out = calibration::recalibrate(model, recordings, references, std::move(how));
   for (const recording::Recording& recording : recordings) {
     out.model.provenance.inputs.push_back({std::string(model::adaptation_protocol), recording.file.filename().string(),

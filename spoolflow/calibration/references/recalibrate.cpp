@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/references/contradictions.hpp"
+#include "spoolflow/calibration/references/direction_view.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -26,24 +29,47 @@ void require_their_recordings(const std::vector<recording::Recording>& recording
   }
 }
 
-MachineEvidence evidence_of(const model::Model& model, const std::vector<recording::Recording>& recordings,
-                            const std::vector<recording::Reference>& references) {
-  MachineEvidence out{model, {}, references, {}};
-  for (const recording::Recording& recording : recordings) {
+/// Of a whole valve a stroke, or a pump's time, is of one direction; those of the other are none of it.
+void keep_own(const recording::Reference& reference, const recording::Recording& recording,
+              const std::vector<bool>& other_opens, std::vector<PassedOil>& oil) {
+  if (other_opens.empty() || reference.kind == recording::ReferenceKind::meter) return;
+  const auto time_s = recording[recording::Channel::time];
+  const auto is_of_other = [&](const PassedOil& each) {
+    const auto at = [&](double when_s) { return std::ranges::lower_bound(time_s, when_s) - time_s.begin(); };
+    return std::any_of(other_opens.begin() + at(each.begin_s), other_opens.begin() + at(each.end_s),
+                       [](bool opens) { return opens; });
+  };
+  const auto foreign = std::ranges::find_if(oil, is_of_other);
+  if (foreign == oil.end()) return;
+  if (!reference.marks.empty()) {
+    throw CalibrationError(fmt::format(
+        "{}: {}: between {} s and {} s of {} the spool opens the other direction; correct the mark, or direction = "
+        "\"{}\"",
+        reference.place, reference.name, foreign->begin_s, foreign->end_s, recording.file.filename().string(),
+        reference.direction));
+  }
+  std::erase_if(oil, is_of_other);
+}
+
+MachineEvidence evidence_of(const model::Model& model, const DirectionView& view) {
+  MachineEvidence out{model, {}, view.references, {}};
+  for (std::size_t n = 0; n < view.recordings.size(); ++n) {
+    const recording::Recording& recording = *view.recordings[n];
     WatchedRun run{&recording, {}};
-    for (std::size_t r = 0; r < references.size(); ++r) {
-      const std::vector<PassedOil> oil =
-          passed_oil(references[r], r, recording, model.observer->parameters, model.valve.rated_flow_m3_per_s);
+    for (std::size_t r = 0; r < view.references.size(); ++r) {
+      const recording::Reference& reference = view.references[r];
+      std::vector<PassedOil> oil =
+          passed_oil(reference, r, recording, model.observer->parameters, model.valve.rated_flow_m3_per_s);
+      keep_own(reference, recording, view.other_opens.empty() ? std::vector<bool>{} : view.other_opens[n], oil);
       run.oil.insert(run.oil.end(), oil.begin(), oil.end());
-      const bool here =
-          references[r].recording.empty() || references[r].recording == recording.file.filename().string();
-      if (references[r].kind != recording::ReferenceKind::closed || !here) continue;
+      const bool here = reference.recording.empty() || reference.recording == recording.file.filename().string();
+      if (reference.kind != recording::ReferenceKind::closed || !here) continue;
       if (const auto reading_m = closed_reading_m(model.observer->parameters, recording)) out.closed_m = reading_m;
     }
     out.runs.push_back(std::move(run));
   }
-  const auto closed = std::ranges::find(references, recording::ReferenceKind::closed, &recording::Reference::kind);
-  if (closed != references.end() && !out.closed_m) {
+  const auto closed = std::ranges::find(view.references, recording::ReferenceKind::closed, &recording::Reference::kind);
+  if (closed != view.references.end() && !out.closed_m) {
     throw CalibrationError(
         fmt::format("{}: {}: the spool never stands closed without current for 0.3 s; record the valve before it is "
                     "switched on, or leave the reference out",
@@ -71,27 +97,17 @@ std::string stays(const std::string& what, const Change& change, const std::stri
   return fmt::format("{} stays: {} would be exp({:.1f}) times as likely", what, best, change.evidence);
 }
 
-/// Position zero, friction, edges, one after the other: each from what the ones before left.
+/// One direction's update: position zero, friction, edges, one after the other, each from what the ones before left.
 class Update {
  public:
-  Update(const MachineEvidence& evidence, RecalibratedValve& out, model::Adaptation& how)
-      : evidence_(evidence), out_(out), how_(how), wear_(out.before) {}
-
-  void run() {
-    find_position_zero();
-    const WearView as_it_was = seen_with(evidence_, wear_, {});
-    find_friction(as_it_was);
-    const WearView view = seen_with(evidence_, wear_, {});
-    for (std::string& sentence : require_agreement(evidence_, view)) say(std::move(sentence));
-    find_edges(view);
-    out_.after = wear_;
-  }
-
- private:
-  void say(std::string sentence) { out_.findings.push_back(std::move(sentence)); }
-  void correct(const char* of, const char* unit, double value, double deviation) {
-    how_.corrections.push_back({evidence_.model.valve.direction, of, unit, value, 2 * deviation});
-  }
+  Update(model::Model model, DirectionView view, model::Adaptation how)
+      : model_(std::move(model)),
+        view_(std::move(view)),
+        how_(std::move(how)),
+        evidence_(evidence_of(model_, view_)),
+        wear_(wear_of(model_)) {}
+  Update(const Update&) = delete;
+  Update& operator=(const Update&) = delete;
 
   void find_position_zero() {
     const Change zero = position_zero_change(evidence_);
@@ -107,8 +123,12 @@ class Update {
                     um_per_m * 2 * zero.deviation));
   }
 
-  void find_friction(const WearView& from) {
-    const Change friction = friction_change(evidence_, from, edge_change(evidence_, from));
+  [[nodiscard]] SeenFriction seen() const {
+    const WearView as_it_was = seen_with(evidence_, wear_, {});
+    return seen_friction(evidence_, as_it_was, edge_change(evidence_, as_it_was));
+  }
+
+  void take(const Change& friction) {
     const double ratio = std::exp(friction.value);
     const std::string best = fmt::format("{:+.0f} %", percent * (ratio - 1));
     if (!friction.taken) {
@@ -122,6 +142,27 @@ class Update {
         "friction {} +- {:.0f} %: with it the sensor's forces and the references' volumes agree exp({:.1f}) "
         "times as likely",
         best, percent * 2 * friction.deviation, friction.evidence));
+  }
+
+  void find_edges() {
+    const WearView view = seen_with(evidence_, wear_, {});
+    for (std::string& sentence : require_agreement(evidence_, view)) say(std::move(sentence));
+    find_edges(view);
+  }
+
+  /// The model with its entry at the end of the log.
+  [[nodiscard]] model::Model moved_on() {
+    require_within_limits(model_, wear_);
+    model::Model out = moved(model_, wear_);
+    how_.wear = wear_;
+    out.provenance.adaptations.push_back(std::move(how_));
+    return out;
+  }
+
+ private:
+  void say(std::string sentence) { how_.reasons.push_back(std::move(sentence)); }
+  void correct(const char* of, const char* unit, double value, double deviation) {
+    how_.corrections.push_back({model_.valve.direction, of, unit, value, 2 * deviation});
   }
 
   void find_edges(const WearView& from) {
@@ -145,27 +186,40 @@ class Update {
     say(fmt::format("edge width {:+.1f} +- {:.1f} %: {}", percent * share, percent * 2 * edge.deviation, oil));
   }
 
-  const MachineEvidence& evidence_;
-  RecalibratedValve& out_;
-  model::Adaptation& how_;
+  model::Model model_;
+  DirectionView view_;
+  model::Adaptation how_;
+  MachineEvidence evidence_;  // refers to the two above
   model::WearState wear_;
 };
 
-void put_log(model::Adaptation how, RecalibratedValve& out) {
-  how.reasons = out.findings;
-  how.wear = out.after;
-  out.model.provenance.adaptations.push_back(std::move(how));
+/// One direction takes its place in the model, the last entry of its log the end of the model's.
+void put(RecalibratedValve& out, model::Model of_one) {
+  const std::string direction = of_one.valve.direction;
+  model::Adaptation log = std::move(of_one.provenance.adaptations.back());
+  const bool whole = out.model.whole();
+  for (const std::string& reason : log.reasons)
+    out.findings.push_back(whole ? fmt::format("{}: {}", model::flow_of(direction), reason) : reason);
+  if (whole) log.direction = direction;
+  model::put_direction(out.model, direction, std::move(of_one));
+  out.model.provenance.adaptations.push_back(std::move(log));
+}
+
+/// The last state of a direction among the first `states` of the log.
+model::WearState state_of(const model::Model& model, const std::string& direction, std::size_t states) {
+  model::WearState out;
+  for (const model::Adaptation& each : model.provenance.adaptations) {
+    if (!each.wear) continue;
+    if (states-- == 0) break;
+    if (each.direction.empty() || each.direction == direction) out = *each.wear;
+  }
+  return out;
 }
 
 }  // namespace
 
 void require_movable(const model::Model& model) {
-  if (model.whole()) {
-    throw CalibrationError(model.valve.name +
-                           ": the model is of both directions of flow, and references move one of one direction; make "
-                           "a model of each direction's benches");
-  }
-  if (!model.observer) {
+  if (!model.has_observer()) {
     throw CalibrationError(model.valve.name +
                            ": the model has the condensed sensor alone; calibrate the valve with solenoid_dynamic, and "
                            "axial_force_map at two or more oil temperatures");
@@ -181,26 +235,54 @@ RecalibratedValve recalibrate(const model::Model& model, const std::vector<recor
                               const std::vector<recording::Reference>& references, model::Adaptation how) {
   require_movable(model);
   require_their_recordings(recordings, references);
-  RecalibratedValve out{model, wear_of(model), wear_of(model), {}};
-  const MachineEvidence evidence = evidence_of(model, recordings, references);
   for (const recording::Recording& recording : recordings) how.files.push_back(recording.file.filename().string());
-  Update(evidence, out, how).run();
-  require_within_limits(model, out.after);
-  out.model = moved(model, out.after);
-  put_log(std::move(how), out);
+  RecalibratedValve out{model, {}};
+  std::deque<Update> updates;  // of the directions that references are of
+  for (const std::string& direction : model::directions(model)) {
+    DirectionView view = view_of_direction(model, direction, recordings, references);
+    if (!view.references.empty()) {
+      updates.emplace_back(model::of_direction(model, direction), std::move(view), how);
+    } else {
+      out.findings.push_back(fmt::format("{} stays: no reference is of it", model::flow_of(direction)));
+    }
+  }
+  if (updates.empty()) {
+    throw CalibrationError(model.valve.name +
+                           ": no reference says what oil passed in a direction that the recordings open; give strokes, "
+                           "a pump or a meter");
+  }
+  for (Update& each : updates) each.find_position_zero();
+  std::vector<SeenFriction> seen;
+  for (const Update& each : updates) seen.push_back(each.seen());
+  for (Update& each : updates) {
+    each.take(friction_change(seen));
+    each.find_edges();
+    put(out, each.moved_on());
+  }
+  const auto closed = std::ranges::find(references, recording::ReferenceKind::closed, &recording::Reference::kind);
+  if (model.whole() && closed != references.end()) {
+    out.findings.push_back(closed->name +
+                           " says nothing of a whole valve: its sensor finds its zero at rest in the centre");
+  }
   return out;
 }
 
 RecalibratedValve gone_back(const model::Model& model, std::size_t state, model::Adaptation how) {
   require_movable(model);
-  const std::vector<model::WearState> states = wear_states(model);
-  if (state >= states.size()) {
+  const std::size_t last = wear_states(model).size() - 1;
+  if (state > last) {
     throw CalibrationError(fmt::format("{}: the model has no state {}; its states are 0, as calibrated, to {}",
-                                       model.valve.name, state, states.size() - 1));
+                                       model.valve.name, state, last));
   }
-  RecalibratedValve out{moved(model, states[state]), states.back(), states[state], {}};
-  out.findings.push_back(fmt::format("went back to state {}", state));
-  put_log(std::move(how), out);
+  how.reasons = {fmt::format("went back to state {}", state)};
+  RecalibratedValve out{model, {}};
+  for (const std::string& direction : model::directions(model)) {
+    const model::Model before = model::of_direction(model, direction);
+    how.wear = state_of(model, direction, state);
+    model::Model after = moved(before, *how.wear);
+    after.provenance.adaptations.push_back(how);
+    put(out, std::move(after));
+  }
   return out;
 }
 

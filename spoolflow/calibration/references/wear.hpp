@@ -12,12 +12,12 @@ namespace spoolflow::calibration {
 [[nodiscard]] sensor::CondensedParameters<double> worn(const sensor::CondensedParameters<double>& valve,
                                                        const model::WearState& wear);
 
-/// The state of which references have last written into the model; none: as calibrated.
+/// The state of which references have last written into the model of one direction; none: as calibrated.
 [[nodiscard]] model::WearState wear_of(const model::Model& model);
-/// All of them, oldest first: the first is as calibrated.
+/// All of them, oldest first: the first is as calibrated. Of a whole valve those of both directions in the log's order.
 [[nodiscard]] std::vector<model::WearState> wear_states(const model::Model& model);
 
-/// The model as it is with `to` instead of wear_of(model), and its band; the log stays as it is.
+/// The model of one direction as it is with `to` instead of wear_of(model), and its band; the log stays as it is.
 [[nodiscard]] model::Model moved(const model::Model& model, const model::WearState& to);
 
 }  // namespace spoolflow::calibration

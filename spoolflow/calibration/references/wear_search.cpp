@@ -109,7 +109,7 @@ Change edge_change(const MachineEvidence& evidence, const WearView& from) {
   return out;
 }
 
-Change friction_change(const MachineEvidence& evidence, const WearView& from, const Change& edges) {
+SeenFriction seen_friction(const MachineEvidence& evidence, const WearView& from, const Change& edges) {
   constexpr double step = 0.1, furthest = 1.0;
   const std::vector<bool> used = used_of(from);
   const auto loss_at = [&](double log_ratio) {
@@ -122,9 +122,22 @@ Change friction_change(const MachineEvidence& evidence, const WearView& from, co
     at = {at.middle - step, step, {loss_at(at.middle - 2 * step), at.loss[0], at.loss[1]}};
   constexpr double hardly_known = 4 * friction_wear;
   const double deviation = 1 / std::sqrt(std::max(at.curvature(), 1 / (hardly_known * hardly_known)));
-  Change out = of_measured(at.vertex(), std::hypot(deviation, Priors::model_friction_share), friction_wear);
-  const double beside = edges.value > 0 ? std::max(edges.evidence, 0.0) : 0;
-  out.taken = out.evidence + beside > change_evidence || from.wear != model::WearState{};
+  return {at.vertex(), std::hypot(deviation, Priors::model_friction_share),
+          edges.value > 0 ? std::max(edges.evidence, 0.0) : 0, from.wear != model::WearState{}};
+}
+
+Change friction_change(std::span<const SeenFriction> seen) {
+  double weights = 0, sum = 0, beside = 0;
+  bool wears = false;
+  for (const SeenFriction& each : seen) {
+    const double weight = 1 / (each.deviation * each.deviation);
+    weights += weight;
+    sum += weight * each.log_ratio;
+    beside += each.beside;
+    wears = wears || each.wears;
+  }
+  Change out = of_measured(sum / weights, 1 / std::sqrt(weights), friction_wear);
+  out.taken = out.evidence + beside > change_evidence || wears;
   return out;
 }
 

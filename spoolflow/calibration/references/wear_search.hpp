@@ -68,9 +68,18 @@ struct OilAgreement {
 /// do: then it is never taken from edges that have not widened.
 [[nodiscard]] Change edge_change(const MachineEvidence& evidence, const WearView& from);
 
-/// Friction in operation, as the logarithm of its ratio to that of `from`: where innovations and the scatter of the
-/// references' volumes are least, with the edges as wide as the oil then asks for. `edges` is edge_change() of `from`:
-/// both together need the evidence of a change; of a valve that shows other wear friction needs none.
-[[nodiscard]] Change friction_change(const MachineEvidence& evidence, const WearView& from, const Change& edges);
+/// What one direction shows of friction in operation, as the logarithm of its ratio to that of `from`: where
+/// innovations and the scatter of the references' volumes are least, with the edges as wide as the oil then asks for.
+struct SeenFriction {
+  double log_ratio, deviation;
+  double beside;  ///< evidence of edges that widened
+  bool wears;     ///< the direction shows other wear
+};
+/// `edges` is edge_change() of `from`.
+[[nodiscard]] SeenFriction seen_friction(const MachineEvidence& evidence, const WearView& from, const Change& edges);
+
+/// Friction by all directions together, for they share a spool. With the edges it needs the evidence of a change; of a
+/// valve that shows other wear it needs none.
+[[nodiscard]] Change friction_change(std::span<const SeenFriction> seen);
 
 }  // namespace spoolflow::calibration

@@ -148,10 +148,10 @@ CalibratedUnit unit_of_type(const model::Model& type, const std::string& type_fi
     const model::Model of_one = model::of_direction(type, direction);
     std::deque<recording::Recording> parts;
     UnitRecordings its{unit.name, unit.file, {}};
-    if (type.whole()) its.file += direction == "a" ? ", P to A" : ", P to B";
+    if (type.whole()) its.file += fmt::format(", {}", model::flow_of(direction));
     for (const UnitRun& run : unit.runs) {
       if (type.whole() && run.direction == through_centre) {
-        parts.push_back(one_side(*run.recording, direction, type.valve.stroke_m));
+        parts.push_back(one_side(*run.recording, direction, type.valve.stroke_m).run);
         its.runs.push_back({&parts.back(), run.protocol, direction});
       } else if (!type.whole() || run.direction == direction) {
         its.runs.push_back(run);

@@ -48,9 +48,10 @@ double centre_m(const recording::Recording& whole, double stroke_m) {
 
 }  // namespace
 
-recording::Recording one_side(const recording::Recording& whole, const std::string& direction, double stroke_m) {
+OneSide one_side(const recording::Recording& whole, const std::string& direction, double stroke_m) {
   const double sign = direction == "a" ? -1 : 1, closed_m = sign * centre_m(whole, stroke_m);
-  recording::Recording out = whole;
+  OneSide side{whole, closed_m};
+  recording::Recording& out = side.run;
   out.column(Channel::current) = whole.column(direction == "a" ? Channel::current_a : Channel::current_b);
   out.column(Channel::voltage) = whole.column(direction == "a" ? Channel::voltage_a : Channel::voltage_b);
   for (const Channel channel : {Channel::current_a, Channel::current_b, Channel::voltage_a, Channel::voltage_b})
@@ -66,7 +67,7 @@ recording::Recording one_side(const recording::Recording& whole, const std::stri
     position_m[k] = closed_m;
     if (!flow_m3_per_s.empty()) flow_m3_per_s[k] = 0;
   }
-  return out;
+  return side;
 }
 
 }  // namespace spoolflow::calibration

@@ -80,7 +80,7 @@ HtmlTable runs_table(const std::vector<validation::RunResult>& runs) {
 
 const char* flows_of(const model::Model& model) {
   if (model.whole()) return "P to B and P to A";
-  return model.valve.direction == "b" ? "P to B" : "P to A";
+  return model::flow_of(model.valve.direction);
 }
 
 /// `unit`: of the model, SI. Residuals of positions are too small for the unit of positions.

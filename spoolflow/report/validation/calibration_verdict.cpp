@@ -26,7 +26,7 @@ Verdict whole_calibration_verdict(const model::Model& model) {
   out.sentence = "The whole valve: both directions of flow in one model.";
   for (const char* direction : {"b", "a"}) {
     Verdict of_one = calibration_verdict(model::of_direction(model, direction));
-    const char* const flow = *direction == 'a' ? "Flow P to A" : "Flow P to B";
+    const std::string flow = fmt::format("Flow {}", model::flow_of(direction));
     out.limits.push_back(phrase("{}: {}", flow, of_one.sentence));
     for (const Text& limit : of_one.limits) out.limits.push_back(phrase("{}: {}", flow, limit));
   }

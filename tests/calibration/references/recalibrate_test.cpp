@@ -8,6 +8,7 @@
 
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/recording/reader.hpp"
+#include "tests/calibration/references/known_references.hpp"
 #include "tests/calibration/type/virtual_unit.hpp"
 #include "tests/recording/temporary_file.hpp"
 
@@ -47,28 +48,6 @@ const std::vector<recording::Recording>& fresh_strokes() {
   return recordings;
 }
 
-Reference meter(double uncertainty = 0.01) {
-  Reference out;
-  out.kind = ReferenceKind::meter;
-  out.name = "meter";
-  out.place = "references.toml, line 1";
-  out.share_uncertainty = uncertainty;
-  out.leakage_uncertainty_m3_per_s = 1e-6;
-  out.interval_s = 2;
-  return out;
-}
-
-Reference closed() {
-  Reference out;
-  out.kind = ReferenceKind::closed;
-  out.name = "closed";
-  return out;
-}
-
-model::Adaptation how() {
-  return {"1.2.3", "2026-01-02T03:04:05Z", std::string(64, 'a'), {}, {}};
-}
-
 std::string refusal(const std::vector<recording::Recording>& recordings, const std::vector<Reference>& references) {
   try {
     static_cast<void>(recalibrate(worn_valve(), recordings, references, how()));
@@ -91,7 +70,7 @@ std::string text_of(const model::Model& model) {
 
 TEST(Recalibrate, AValveThatDidNotWearStaysAsItIsToTheLastBit) {
   const RecalibratedValve same = recalibrate(worn_valve(), fresh_strokes(), {meter(), closed()}, how());
-  EXPECT_EQ(same.after, model::WearState{});
+  EXPECT_EQ(wear_of(same.model), model::WearState{});
   model::Model without_log = same.model;
   without_log.provenance.adaptations.clear();
   EXPECT_EQ(text_of(without_log), text_of(worn_valve()));
@@ -101,13 +80,13 @@ TEST(Recalibrate, AValveThatDidNotWearStaysAsItIsToTheLastBit) {
 TEST(Recalibrate, FindsTheWearOfEdgesFrictionAndPositionZeroAndLogsIt) {
   const model::WearState wear{0.12, 1.35, 15e-6};
   const RecalibratedValve found = recalibrate(worn_valve(), strokes_of(wear), {meter(), closed()}, how());
-  EXPECT_NEAR(found.after.edge_width, wear.edge_width, 0.04);
-  EXPECT_NEAR(found.after.friction_ratio, wear.friction_ratio, 0.12);
-  EXPECT_NEAR(found.after.position_zero_m, wear.position_zero_m, 2e-6);
+  EXPECT_NEAR(wear_of(found.model).edge_width, wear.edge_width, 0.04);
+  EXPECT_NEAR(wear_of(found.model).friction_ratio, wear.friction_ratio, 0.12);
+  EXPECT_NEAR(wear_of(found.model).position_zero_m, wear.position_zero_m, 2e-6);
   EXPECT_GT(found.model.observer->parameters.environment.flow_share, 0);
   const model::Model read = model::parse_model(text_of(found.model), "valve_2.json");
   ASSERT_EQ(wear_states(read).size(), 2U);
-  EXPECT_EQ(wear_of(read), found.after);
+  EXPECT_EQ(wear_of(read), wear_of(found.model));
   const model::Adaptation& log = read.provenance.adaptations.back();
   EXPECT_EQ(log.corrections.size(), 3U);
   EXPECT_EQ(log.reasons, found.findings);
@@ -118,14 +97,14 @@ TEST(Recalibrate, EdgesThatWereTakenForALittleTooWideGoBackButNotBelowTheCalibra
   model::Model before = moved(worn_valve(), wide);
   before.provenance.adaptations.push_back({"1", "t", std::string(64, 'a'), {}, {}, {}, {wide}});
   const RecalibratedValve found = recalibrate(before, fresh_strokes(), {meter()}, how());
-  EXPECT_LT(found.after.edge_width, 0.02);
-  EXPECT_GE(found.after.edge_width, 0);
+  EXPECT_LT(wear_of(found.model).edge_width, 0.02);
+  EXPECT_GE(wear_of(found.model).edge_width, 0);
 }
 
 TEST(Recalibrate, FindsFrictionBesideEdgesThatWidened) {
   const RecalibratedValve found = recalibrate(worn_valve(), strokes_of({0.1, 1.2, 0}), {meter()}, how());
-  EXPECT_NEAR(found.after.friction_ratio, 1.2, 0.08);
-  EXPECT_NEAR(found.after.edge_width, 0.1, 0.04);
+  EXPECT_NEAR(wear_of(found.model).friction_ratio, 1.2, 0.08);
+  EXPECT_NEAR(wear_of(found.model).edge_width, 0.1, 0.04);
 }
 
 TEST(Recalibrate, GoesBackToAnyEarlierState) {

@@ -119,7 +119,7 @@ TEST(WholeType, ItsModelIsReadAgainWithBothSections) {
 
 TEST(OneSide, ReadsAsClosedWithoutFlowWhileTheSpoolStandsOnTheOther) {
   const recording::Recording both = WholeUnit(0).both();
-  const recording::Recording p_to_a = one_side(both, "a", whole_type().valve.stroke_m);
+  const recording::Recording p_to_a = one_side(both, "a", whole_type().valve.stroke_m).run;
   double furthest_m = 0;
   for (std::size_t k = 0; k < both.size(); ++k) {
     EXPECT_GE(p_to_a[Channel::position][k], -25e-6);

@@ -94,9 +94,13 @@ export interface ModelHistory {
   calibrated: string;
   simulated: boolean;
   /** Newest first. */
-  references: { time: string; reasons: string[]; edge_width: number; friction_ratio: number; position_zero_m: number }[];
-  drift_in_30_days: Record<'edge_width' | 'friction' | 'position_zero_m', { value: number; uncertainty_95: number }> | null;
+  references: { time: string; reasons: string[]; edge_width: number; friction_ratio: number; position_zero_m: number; direction?: 'a' | 'b' }[];
+  drift_in_30_days: ModelDrift | null;
+  /** Of a whole valve; the one above is then of P to B. */
+  drift_in_30_days_p_to_a?: ModelDrift | null;
 }
+
+export type ModelDrift = Record<'edge_width' | 'friction' | 'position_zero_m', { value: number; uncertainty_95: number }>;
 
 /** Who sends samples of a valve that the site does not know. */
 export interface Stranger {

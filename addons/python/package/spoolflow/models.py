@@ -128,7 +128,8 @@ class Model:
     @property
     def wear_states(self) -> List[Dict[str, float]]:
         """Where references have moved the model to (docs/references.md), oldest first; the first is as calibrated: `edge_width` as a
-        share more, `friction_ratio`, `position_zero_m`, and the standard uncertainties `flow_share` and `friction_share`."""
+        share more, `friction_ratio`, `position_zero_m`, and the standard uncertainties `flow_share` and `friction_share`. Of a whole valve
+        those of both directions in the order of `provenance["adaptations"]`, which says whose each is."""
         as_calibrated = {"edge_width": 0.0, "friction_ratio": 1.0, "position_zero_m": 0.0, "flow_share": 0.0, "friction_share": 0.0}
         return [as_calibrated, *(each["wear"] for each in self.provenance.get("adaptations", []) if "wear" in each)]
 

@@ -95,7 +95,7 @@ def recalibrate(model: AnyModel, recordings: Runs, references: References, *, ch
         moved.provenance["adaptations"][-1]["reasons"]   # what was changed, what stays, and why
         moved.wear_states, moved.drift, moved.gone_back(0)
 
-    model: of one direction, with an observer, or its file.
+    model: with an observer, or its file. References of a whole valve say their direction, "b" (P to B) or "a".
     recordings: of the valve at work, as of `validate`, oldest first. channels: their map.
     references: a file of tables [[reference]] (TOML), a dict with the keys of one, or several.
 
