@@ -122,8 +122,8 @@ SeenFriction seen_friction(const MachineEvidence& evidence, const WearView& from
     at = {at.middle - step, step, {loss_at(at.middle - 2 * step), at.loss[0], at.loss[1]}};
   constexpr double hardly_known = 4 * friction_wear;
   const double deviation = 1 / std::sqrt(std::max(at.curvature(), 1 / (hardly_known * hardly_known)));
-  return {at.vertex(), std::hypot(deviation, Priors::model_friction_share),
-          edges.value > 0 ? std::max(edges.evidence, 0.0) : 0, from.wear != model::WearState{}};
+  return {at.vertex(), deviation, edges.value > 0 ? std::max(edges.evidence, 0.0) : 0,
+          from.wear != model::WearState{}};
 }
 
 Change friction_change(std::span<const SeenFriction> seen) {
@@ -136,7 +136,9 @@ Change friction_change(std::span<const SeenFriction> seen) {
     beside += each.beside;
     wears = wears || each.wears;
   }
-  Change out = of_measured(sum / weights, 1 / std::sqrt(weights), friction_wear);
+  // What the model makes of friction errs alike in both directions.
+  const double deviation = std::hypot(1 / std::sqrt(weights), Priors::model_friction_share);
+  Change out = of_measured(sum / weights, deviation, friction_wear);
   out.taken = out.evidence + beside > change_evidence || wears;
   return out;
 }

@@ -71,7 +71,7 @@ struct OilAgreement {
 /// What one direction shows of friction in operation, as the logarithm of its ratio to that of `from`: where
 /// innovations and the scatter of the references' volumes are least, with the edges as wide as the oil then asks for.
 struct SeenFriction {
-  double log_ratio, deviation;
+  double log_ratio, deviation;  ///< the deviation without what the model errs by
   double beside;  ///< evidence of edges that widened
   bool wears;     ///< the direction shows other wear
 };

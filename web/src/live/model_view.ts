@@ -40,10 +40,11 @@ export class ModelView {
     const ago = (time: string): string => `${duration((Date.now() - Date.parse(time)) / 1000)} ago`;
     const { references, drift_in_30_days: drift, drift_in_30_days_p_to_a: other = null } = model, last = references[0];
     const whole = model.drift_in_30_days_p_to_a !== undefined;
+    const looks = new Set(references.map((one) => one.time)).size;  // each is of both directions of a whole valve
     setText(this.about, `${model.file === '' ? 'the demonstration' : model.file}, calibrated ${ago(model.calibrated)} ` +
       `(${clock(model.calibrated)})${model.simulated ? ' from simulated recordings' : ''}; ` +
       (last === undefined ? 'references have not looked at it since.'
-        : `references have looked at it ${references.length === 1 ? 'once' : `${references.length} times`}, the last time ${ago(last.time)}.`));
+        : `references have looked at it ${looks === 1 ? 'once' : `${looks} times`}, the last time ${ago(last.time)}.`));
     this.table.hidden = last === undefined;
     this.rows.replaceChildren(
       ...(drift === null ? [] : [driftRow(drift, whole ? 'b' : undefined)]),
