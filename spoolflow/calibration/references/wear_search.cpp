@@ -122,8 +122,7 @@ SeenFriction seen_friction(const MachineEvidence& evidence, const WearView& from
     at = {at.middle - step, step, {loss_at(at.middle - 2 * step), at.loss[0], at.loss[1]}};
   constexpr double hardly_known = 4 * friction_wear;
   const double deviation = 1 / std::sqrt(std::max(at.curvature(), 1 / (hardly_known * hardly_known)));
-  return {at.vertex(), deviation, edges.value > 0 ? std::max(edges.evidence, 0.0) : 0,
-          from.wear != model::WearState{}};
+  return {at.vertex(), deviation, edges.value > 0 ? std::max(edges.evidence, 0.0) : 0, from.wear != model::WearState{}};
 }
 
 Change friction_change(std::span<const SeenFriction> seen) {

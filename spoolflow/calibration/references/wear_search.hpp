@@ -72,8 +72,8 @@ struct OilAgreement {
 /// innovations and the scatter of the references' volumes are least, with the edges as wide as the oil then asks for.
 struct SeenFriction {
   double log_ratio, deviation;  ///< the deviation without what the model errs by
-  double beside;  ///< evidence of edges that widened
-  bool wears;     ///< the direction shows other wear
+  double beside;                ///< evidence of edges that widened
+  bool wears;                   ///< the direction shows other wear
 };
 /// `edges` is edge_change() of `from`.
 [[nodiscard]] SeenFriction seen_friction(const MachineEvidence& evidence, const WearView& from, const Change& edges);
