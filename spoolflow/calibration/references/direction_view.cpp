@@ -46,6 +46,10 @@ bool is_of(const Reference& reference, const model::Model& model, const std::str
   return reference.direction.empty() || reference.direction == direction;
 }
 
+const sensor::ObserverParameters<double>& observer_of(const model::Model& model, const std::string& direction) {
+  return (model.whole() && direction == "a" ? model.p_to_a->observer : model.observer)->parameters;
+}
+
 bool opens_beyond(std::span<const double> position_m, double closed_below_m) {
   return std::ranges::any_of(position_m, [&](double position) { return position > closed_below_m; });
 }
@@ -64,7 +68,7 @@ void add_side(const recording::Recording& whole, const model::Model& model, cons
   for (double& position_m : side.run.column(Channel::position)) position_m -= side.closed_m;
   for (double& flow : side.run.column(Channel::flow_reference)) flow = std::abs(flow);  // a meter may know no direction
   const double sign = direction == "a" ? -1 : 1;
-  const double other_m = model::of_direction(model, direction == "a" ? "b" : "a").observer->parameters.closed_below_m;
+  const double other_m = observer_of(model, direction == "a" ? "b" : "a").closed_below_m;
   std::vector<bool> other_opens;
   for (const double position_m : whole[Channel::position])
     other_opens.push_back(side.closed_m - sign * position_m > other_m);
@@ -84,9 +88,10 @@ DirectionView view_of_direction(const model::Model& model, const std::string& di
       add_side(each, model, direction, out);
     } else {
       out.recordings.push_back(&each);
+      out.other_opens.emplace_back();
     }
   }
-  const double closed_below_m = model::of_direction(model, direction).observer->parameters.closed_below_m;
+  const double closed_below_m = observer_of(model, direction).closed_below_m;
   for (const Reference& each : references) {
     const bool of_both = model.whole() && each.direction.empty();
     if (is_of(each, model, direction) && (!of_both || is_seen(each, out, closed_below_m)))

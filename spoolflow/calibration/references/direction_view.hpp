@@ -16,8 +16,8 @@ struct DirectionView {
   std::string direction;
   std::vector<const recording::Recording*> recordings;
   std::vector<recording::Reference> references;  ///< those that are of it
-  std::vector<std::vector<bool>> other_opens;  ///< of a whole valve: in which samples of each the spool opens the other
-  std::deque<recording::Recording> made;       ///< of a whole valve, for `recordings`
+  std::vector<std::vector<bool>> other_opens;    ///< of each, in which samples the spool opens the other; empty: none
+  std::deque<recording::Recording> made;         ///< of a whole valve, for `recordings`
 };
 
 /// `direction` is one of model::directions(). Throws CalibrationError: a reference of a whole valve that does not say

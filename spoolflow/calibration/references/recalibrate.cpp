@@ -60,7 +60,7 @@ MachineEvidence evidence_of(const model::Model& model, const DirectionView& view
       const recording::Reference& reference = view.references[r];
       std::vector<PassedOil> oil =
           passed_oil(reference, r, recording, model.observer->parameters, model.valve.rated_flow_m3_per_s);
-      keep_own(reference, recording, view.other_opens.empty() ? std::vector<bool>{} : view.other_opens[n], oil);
+      keep_own(reference, recording, view.other_opens[n], oil);
       run.oil.insert(run.oil.end(), oil.begin(), oil.end());
       const bool here = reference.recording.empty() || reference.recording == recording.file.filename().string();
       if (reference.kind != recording::ReferenceKind::closed || !here) continue;
@@ -254,8 +254,9 @@ RecalibratedValve recalibrate(const model::Model& model, const std::vector<recor
   for (Update& each : updates) each.find_position_zero();
   std::vector<SeenFriction> seen;
   for (const Update& each : updates) seen.push_back(each.seen());
+  const Change friction = friction_change(seen);
   for (Update& each : updates) {
-    each.take(friction_change(seen));
+    each.take(friction);
     each.find_edges();
     put(out, each.moved_on());
   }

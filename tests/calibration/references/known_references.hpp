@@ -2,10 +2,17 @@
 /// References of virtual valves, and the log's beginning.
 #include <string>
 
-#include "spoolflow/model/provenance.hpp"
+#include "spoolflow/model/model.hpp"
 #include "spoolflow/recording/references.hpp"
 
 namespace spoolflow::calibration {
+
+/// The example's model; positions of the virtual unit are free of drift.
+inline model::Model model_without_drift() {
+  model::Model out = model::read_model(SPOOLFLOW_EXAMPLE_MODEL);
+  out.observer->parameters.position_sensor.drift_m_per_K = 0;
+  return out;
+}
 
 inline recording::Reference meter(double uncertainty = 0.01) {
   recording::Reference out;

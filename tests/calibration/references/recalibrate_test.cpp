@@ -21,11 +21,7 @@ using recording::ReferenceKind;
 using testing::HasSubstr;
 
 const model::Model& worn_valve() {
-  static const model::Model model = [] {
-    model::Model out = model::read_model(SPOOLFLOW_EXAMPLE_MODEL);
-    out.observer->parameters.position_sensor.drift_m_per_K = 0;  // positions of the virtual unit are free of drift
-    return out;
-  }();
+  static const model::Model model = model_without_drift();
   return model;
 }
 

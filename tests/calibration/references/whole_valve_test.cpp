@@ -20,11 +20,7 @@ using recording::ReferenceKind;
 using testing::HasSubstr;
 
 const model::Model& whole_valve() {
-  static const model::Model model = [] {
-    model::Model one = model::read_model(SPOOLFLOW_EXAMPLE_MODEL);
-    one.observer->parameters.position_sensor.drift_m_per_K = 0;  // positions of the virtual unit are free of drift
-    return whole_of(std::move(one));
-  }();
+  static const model::Model model = whole_of(model_without_drift());
   return model;
 }
 
