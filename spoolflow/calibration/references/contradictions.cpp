@@ -66,7 +66,11 @@ std::string left_out(const MachineEvidence& evidence, const WearView& view, std:
 void require_no_leak(const MachineEvidence& evidence, const WearView& view, std::size_t r) {
   const recording::Reference& reference = evidence.references[r];
   const OilLeak leak = leak_of(view.ratios, r);
-  if (leak.gain < change_evidence || !(leak.leak_m3_per_s > reference.leakage_uncertainty_m3_per_s)) return;
+  const double stated_m3_per_s = reference.leakage_uncertainty_m3_per_s;
+  if (!(leak.leak_m3_per_s > stated_m3_per_s)) return;
+  const double deviation_m3_per_s = std::hypot(leak.deviation_m3_per_s, 0.5 * stated_m3_per_s),
+               usual_m3_per_s = Priors::seal_wear_share * evidence.model.valve.rated_flow_m3_per_s;
+  if (evidence_of_change(leak.leak_m3_per_s, deviation_m3_per_s, usual_m3_per_s) < contradiction_evidence) return;
   throw CalibrationError(fmt::format(
       "{}: {} is refused: slow intervals miss {:.2g} +- {:.2g} L/min beside fast ones, where {:.2g} L/min was stated; "
       "likely the seal leaks; mend it, or state its leakage",
@@ -114,7 +118,7 @@ std::vector<std::string> require_agreement(const MachineEvidence& evidence, cons
 }
 
 void require_no_less(const MachineEvidence& evidence, const Change& edge) {
-  if (!(edge.value < 0) || edge.evidence < change_evidence) return;
+  if (!(edge.value < 0) || edge.evidence < contradiction_evidence) return;
   throw CalibrationError(
       fmt::format("{} refused: so little oil passed that the edges would be {:.1f} % narrower, and wear widens them; "
                   "likely a seal leaks, another consumer is open, or the stated area or displacement is too small",

@@ -97,9 +97,9 @@ OilLevel level_of(const std::vector<OilRatio>& ratios, std::size_t reference) {
 OilLeak leak_of(const std::vector<OilRatio>& ratios, std::size_t reference) {
   const std::vector<OilRatio> used = used_of(ratios, reference);
   constexpr std::size_t least_intervals = 4;
-  if (used.size() < least_intervals) return {0, 0, 0};
+  if (used.size() < least_intervals) return {0, 0};
   const Line line = line_through(used, true);
-  return {line.leak, std::sqrt(line.leak_variance), line_through(used, false).loss - line.loss};
+  return {line.leak, std::sqrt(line.leak_variance)};
 }
 
 void leave_out_apart(std::vector<OilRatio>& ratios) {

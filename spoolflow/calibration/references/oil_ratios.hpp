@@ -39,7 +39,6 @@ struct OilLevel {
 struct OilLeak {
   double leak_m3_per_s;  ///< > 0: the reference misses oil
   double deviation_m3_per_s;
-  double gain;  ///< by how much less the loss is with it
 };
 [[nodiscard]] OilLeak leak_of(const std::vector<OilRatio>& ratios, std::size_t reference);
 

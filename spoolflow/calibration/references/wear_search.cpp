@@ -1,8 +1,11 @@
 #include "spoolflow/calibration/references/wear_search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "spoolflow/parallel/for_each.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -29,17 +32,6 @@ model::WearState with_edge(model::WearState wear, double log_ratio) {
   return wear;
 }
 
-/// Three points of a loss at equal steps, and the parabola through them.
-struct Parabola {
-  double middle, step;
-  std::array<double, 3> loss;
-  [[nodiscard]] double curvature() const { return (loss[0] - 2 * loss[1] + loss[2]) / (step * step); }
-  [[nodiscard]] double vertex() const {
-    if (!(curvature() > 0)) return middle;
-    return middle + std::clamp(0.5 * (loss[0] - loss[2]) / (curvature() * step), -step, step);
-  }
-};
-
 /// What is to be expected of a change that reads `value` within `deviation` where wear makes it `usual` large.
 Change of_measured(double value, double deviation, double usual) {
   const double kept = usual * usual / (usual * usual + deviation * deviation);
@@ -52,6 +44,46 @@ WearView with_asked_edges(const MachineEvidence& evidence, WearView view, const 
   constexpr double width_per_volume = 1 / sensor::ReferencePriors::volume_per_width, most = 0.2;
   const double asked = std::clamp(width_per_volume * agreement_of(evidence, view).log_ratio, 0.0, most);
   return asked > 0 ? seen_with(evidence, with_edge(view.wear, asked), used) : view;
+}
+
+double tried_log_friction(std::size_t k) {
+  return friction_step * (static_cast<double>(k) - static_cast<double>(same_friction));
+}
+
+/// Without the constant.
+double log_normal(double value, double deviation) {
+  return -0.5 * std::pow(value / deviation, 2) - std::log(deviation);
+}
+
+double normal_share_below(double deviations) {
+  return 0.5 * std::erfc(-deviations / std::numbers::sqrt2);
+}
+
+/// Of the oil beside the sensor's where wear may have changed the edges by what is usual, but not to below the
+/// calibrated ones: a normal cut off there.
+double log_likelihood_of_wider_edges(const OilAgreement& oil, double edge_width) {
+  constexpr double usual = Priors::volume_per_width * edge_wear;
+  const double narrowest = -Priors::volume_per_width * std::log1p(edge_width), both = std::hypot(usual, oil.deviation),
+               asked = oil.log_ratio * std::pow(usual / both, 2), known = usual * oil.deviation / both;
+  return log_normal(oil.log_ratio, both) +
+         std::log(normal_share_below((asked - narrowest) / known) / normal_share_below(-narrowest / usual));
+}
+
+/// What the model makes of friction errs by itself, alike in all directions: so may the friction tried.
+PerFriction as_the_model_errs(const PerFriction& log_likelihood) {
+  const double most = *std::ranges::max_element(log_likelihood);
+  PerFriction out{};
+  for (std::size_t k = 0; k < tried_frictions; ++k) {
+    double weights = 0, sum = 0;
+    for (std::size_t j = 0; j < tried_frictions; ++j) {
+      const double apart = (tried_log_friction(j) - tried_log_friction(k)) / Priors::model_friction_share,
+                   weight = std::exp(-0.5 * apart * apart);
+      weights += weight;
+      sum += weight * std::exp(log_likelihood[j] - most);
+    }
+    out[k] = std::log(sum / weights) + most;
+  }
+  return out;
 }
 
 }  // namespace
@@ -109,36 +141,43 @@ Change edge_change(const MachineEvidence& evidence, const WearView& from) {
   return out;
 }
 
-SeenFriction seen_friction(const MachineEvidence& evidence, const WearView& from, const Change& edges) {
-  constexpr double step = 0.1, furthest = 1.0;
+SeenFriction seen_friction(const MachineEvidence& evidence, const WearView& from) {
   const std::vector<bool> used = used_of(from);
-  const auto loss_at = [&](double log_ratio) {
-    return with_asked_edges(evidence, seen_with(evidence, with_friction(from.wear, log_ratio), used), used).loss;
-  };
-  Parabola at{0, step, {loss_at(-step), loss_at(0), loss_at(step)}};
-  while (at.loss[2] < at.loss[1] && at.middle < furthest)
-    at = {at.middle + step, step, {at.loss[1], at.loss[2], loss_at(at.middle + 2 * step)}};
-  while (at.loss[0] < at.loss[1] && at.middle > -furthest)
-    at = {at.middle - step, step, {loss_at(at.middle - 2 * step), at.loss[0], at.loss[1]}};
-  constexpr double hardly_known = 4 * friction_wear;
-  const double deviation = 1 / std::sqrt(std::max(at.curvature(), 1 / (hardly_known * hardly_known)));
-  return {at.vertex(), deviation, edges.value > 0 ? std::max(edges.evidence, 0.0) : 0, from.wear != model::WearState{}};
+  SeenFriction out{{}, {}, from.wear != model::WearState{}};
+  if (!(agreement_of(evidence, from).deviation > 0)) return out;  // no oil, nothing seen
+  parallel::for_each(tried_frictions, parallel::cores(), [&](std::size_t k) {
+    const WearView view = seen_with(evidence, with_friction(from.wear, tried_log_friction(k)), used);
+    const double loss = with_asked_edges(evidence, view, used).loss;
+    const OilAgreement oil = agreement_of(evidence, view);
+    out.with_these_edges[k] = log_normal(oil.log_ratio, oil.deviation) - loss;
+    out.with_wider_edges[k] = log_likelihood_of_wider_edges(oil, from.wear.edge_width) - loss;
+  });
+  return out;
 }
 
 Change friction_change(std::span<const SeenFriction> seen) {
-  double weights = 0, sum = 0, beside = 0;
+  PerFriction wider{}, same{};
   bool wears = false;
   for (const SeenFriction& each : seen) {
-    const double weight = 1 / (each.deviation * each.deviation);
-    weights += weight;
-    sum += weight * each.log_ratio;
-    beside += each.beside;
+    std::ranges::transform(wider, each.with_wider_edges, wider.begin(), std::plus{});
+    std::ranges::transform(same, each.with_these_edges, same.begin(), std::plus{});
     wears = wears || each.wears;
   }
-  // What the model makes of friction errs alike in both directions.
-  const double deviation = std::hypot(1 / std::sqrt(weights), Priors::model_friction_share);
-  Change out = of_measured(sum / weights, deviation, friction_wear);
-  out.taken = out.evidence + beside > change_evidence || wears;
+  const PerFriction log_likelihood = as_the_model_errs(wider);
+  const double most = *std::ranges::max_element(log_likelihood);
+  double expected = 0, weights = 0, mean = 0, square = 0;
+  for (std::size_t k = 0; k < tried_frictions; ++k) {
+    const double log_ratio = tried_log_friction(k), usual = std::exp(-0.5 * std::pow(log_ratio / friction_wear, 2)),
+                 weight = usual * std::exp(log_likelihood[k] - most);
+    expected += usual;
+    weights += weight;
+    mean += weight * log_ratio;
+    square += weight * log_ratio * log_ratio;
+  }
+  mean /= weights;
+  const double none = as_the_model_errs(same)[same_friction];
+  Change out{mean, std::sqrt(square / weights - mean * mean), std::log(weights / expected) + most - none};
+  out.taken = out.evidence > change_evidence || wears;
   return out;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 /// The wear that makes a valve's sensor agree best with itself and with the oil that its references say has passed.
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 
@@ -18,10 +20,16 @@ inline constexpr double edge_wear = Priors::edge_wear, position_zero_wear_m = Pr
 /// One standard deviation of what wear changes of friction between two looks at a valve.
 inline constexpr double friction_wear = 0.25;
 /// Innovations so far apart count as independent.
-inline constexpr double innovation_memory_s = 0.05;
-/// A change is taken where it is so many times as likely as none, in natural logarithms, its prior width counted.
-inline constexpr double change_evidence = 1.6;
+inline constexpr double innovation_memory_s = 0.1;
+/// A change is taken where it is three times as likely as none, a leak or narrower edges are a contradiction where they
+/// are five times, in natural logarithms, prior widths counted.
+inline constexpr double change_evidence = 1.1, contradiction_evidence = 1.6;
 inline constexpr double percent = 100;  ///< a share of 1
+
+/// Friction tried beside that of a look: logarithms of their ratio, -0.8 to 1.0.
+inline constexpr std::size_t tried_frictions = 19, same_friction = 8;
+inline constexpr double friction_step = 0.1;
+using PerFriction = std::array<double, tried_frictions>;
 
 /// What is looked at. Keeps model, recordings and references by reference.
 struct MachineEvidence {
@@ -68,18 +76,18 @@ struct OilAgreement {
 /// do: then it is never taken from edges that have not widened.
 [[nodiscard]] Change edge_change(const MachineEvidence& evidence, const WearView& from);
 
-/// What one direction shows of friction in operation, as the logarithm of its ratio to that of `from`: where
-/// innovations and the scatter of the references' volumes are least, with the edges as wide as the oil then asks for.
+/// What one direction shows of friction in operation, for each friction tried: logarithms of the likelihoods of the
+/// sensor's innovations and of how far the references' volumes scatter beside the sensor's, with edges as wide as the
+/// oil then asks for, and of what those volumes have in common.
 struct SeenFriction {
-  double log_ratio, deviation;  ///< the deviation without what the model errs by
-  double beside;                ///< evidence of edges that widened
-  bool wears;                   ///< the direction shows other wear
+  PerFriction with_wider_edges;  ///< edges may have widened by what is usual
+  PerFriction with_these_edges;
+  bool wears;  ///< the direction shows other wear
 };
-/// `edges` is edge_change() of `from`.
-[[nodiscard]] SeenFriction seen_friction(const MachineEvidence& evidence, const WearView& from, const Change& edges);
+[[nodiscard]] SeenFriction seen_friction(const MachineEvidence& evidence, const WearView& from);
 
-/// Friction by all directions together, for they share a spool. With the edges it needs the evidence of a change; of a
-/// valve that shows other wear it needs none.
+/// Friction by all directions together, for they share a spool, as the logarithm of its ratio. Its evidence is that of
+/// other friction and wider edges beside none of both; of a valve that shows other wear it needs none.
 [[nodiscard]] Change friction_change(std::span<const SeenFriction> seen);
 
 }  // namespace spoolflow::calibration
