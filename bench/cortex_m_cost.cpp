@@ -13,9 +13,9 @@ using namespace spoolflow;
 void print(const cortex_m::Core& core, estimation::Estimator estimator, const cortex_m::Replay& replay) {
   fmt::print("{}, {}: {} samples, largest difference to double precision on the host {:.4f} % of the rated flow\n",
              core.name, estimation::name(estimator), replay.points, replay.largest_error_percent);
-  fmt::print("  {:<20}{:>9}{:>9}{:>9}\n", "instructions a step", "steps", "median", "largest");
+  fmt::print("  {:<20}{:>9}{:>9}{:>9}{:>9}\n", "instructions a step", "steps", "median", "mean", "largest");
   const auto line = [](const cortex_m::StepCost& cost) {
-    fmt::print("  {:<20}{:>9}{:>9}{:>9}\n", cost.way, cost.steps, cost.median, cost.largest);
+    fmt::print("  {:<20}{:>9}{:>9}{:>9}{:>9}\n", cost.way, cost.steps, cost.median, cost.mean, cost.largest);
   };
   line(replay.all);
   for (const cortex_m::StepCost& way : replay.ways) line(way);

@@ -10,7 +10,7 @@ import tempfile
 import threading
 import time
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tests", "fleet"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "addons", "fleet", "tests"))
 from servers import make_certificates, until  # noqa: E402
 from whole_fleet import Fleet  # noqa: E402
 

@@ -9,7 +9,7 @@ import sys
 import tempfile
 import time
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tests", "fleet"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "addons", "fleet", "tests"))
 from fleet import make_recordings, outbox, reach, computed, record_offline, site, write_site  # noqa: E402
 from servers import make_certificates  # noqa: E402
 from whole_fleet import Fleet  # noqa: E402

@@ -28,7 +28,8 @@ std::uint32_t flash_bytes(Workshop& workshop, const Core& core, const std::strin
 }
 
 StepCost cost(const Figures& figures, const std::string& name, const std::string& way) {
-  return {way, figures.at(name + " steps"), figures.at(name + " median"), figures.at(name + " largest")};
+  return {way, figures.at(name + " steps"), figures.at(name + " median"), figures.at(name + " mean"),
+          figures.at(name + " largest")};
 }
 
 /// The order of mode_of in firmware/sensor_under_test.hpp.

@@ -30,6 +30,7 @@ struct StepCost {
   std::string way;  ///< through the step
   std::uint32_t steps;
   std::uint32_t median;
+  std::uint32_t mean;  ///< rounded
   std::uint32_t largest;
 };
 

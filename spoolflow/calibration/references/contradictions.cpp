@@ -66,11 +66,7 @@ std::string left_out(const MachineEvidence& evidence, const WearView& view, std:
 void require_no_leak(const MachineEvidence& evidence, const WearView& view, std::size_t r) {
   const recording::Reference& reference = evidence.references[r];
   const OilLeak leak = leak_of(view.ratios, r);
-  const double stated_m3_per_s = reference.leakage_uncertainty_m3_per_s;
-  if (!(leak.leak_m3_per_s > stated_m3_per_s)) return;
-  const double deviation_m3_per_s = std::hypot(leak.deviation_m3_per_s, 0.5 * stated_m3_per_s),
-               usual_m3_per_s = Priors::seal_wear_share * evidence.model.valve.rated_flow_m3_per_s;
-  if (evidence_of_change(leak.leak_m3_per_s, deviation_m3_per_s, usual_m3_per_s) < contradiction_evidence) return;
+  if (leak.gain < contradiction_evidence || !(leak.leak_m3_per_s > reference.leakage_uncertainty_m3_per_s)) return;
   throw CalibrationError(fmt::format(
       "{}: {} is refused: slow intervals miss {:.2g} +- {:.2g} L/min beside fast ones, where {:.2g} L/min was stated; "
       "likely the seal leaks; mend it, or state its leakage",

@@ -67,6 +67,13 @@ Line line_through(const std::vector<OilRatio>& ratios, bool with_leak) {
   return out;
 }
 
+/// Loss of so many residuals where the deviations expected of them are the least: all may be larger by one factor, and
+/// the likeliest counts. Of normal residuals it is the profile of their likelihood over that factor.
+double with_unknown_scale(double loss, std::size_t count) {
+  const double expected = 0.5 * static_cast<double>(count);
+  return loss > expected ? expected * (1 + std::log(loss / expected)) : loss;
+}
+
 }  // namespace
 
 std::vector<OilRatio> oil_ratios(const std::vector<PassedOil>& oil, const std::vector<double>& sensor_m3,
@@ -91,15 +98,15 @@ OilLevel level_of(const std::vector<OilRatio>& ratios, std::size_t reference) {
   const std::vector<OilRatio> used = used_of(ratios, reference);
   if (used.empty()) return {0, 0, 0, 0};
   const Line line = line_through(used, false);
-  return {line.level, std::sqrt(line.level_variance), line.loss, used.size()};
+  return {line.level, std::sqrt(line.level_variance), with_unknown_scale(line.loss, used.size()), used.size()};
 }
 
 OilLeak leak_of(const std::vector<OilRatio>& ratios, std::size_t reference) {
   const std::vector<OilRatio> used = used_of(ratios, reference);
   constexpr std::size_t least_intervals = 4;
-  if (used.size() < least_intervals) return {0, 0};
+  if (used.size() < least_intervals) return {0, 0, 0};
   const Line line = line_through(used, true);
-  return {line.leak, std::sqrt(line.leak_variance)};
+  return {line.leak, std::sqrt(line.leak_variance), line_through(used, false).loss - line.loss};
 }
 
 void leave_out_apart(std::vector<OilRatio>& ratios) {

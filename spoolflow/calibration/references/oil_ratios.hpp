@@ -30,7 +30,7 @@ inline constexpr double least_seen_share = sensor::ReferencePriors::least_seen_s
 /// What all used intervals of a reference have in common.
 struct OilLevel {
   double log_ratio, deviation;
-  double loss;  ///< of its intervals about it
+  double loss;  ///< of its intervals about it, which may all scatter more than expected, by what is likeliest
   std::size_t count;
 };
 [[nodiscard]] OilLevel level_of(const std::vector<OilRatio>& ratios, std::size_t reference);
@@ -39,6 +39,7 @@ struct OilLevel {
 struct OilLeak {
   double leak_m3_per_s;  ///< > 0: the reference misses oil
   double deviation_m3_per_s;
+  double gain;  ///< by how much less the loss is with it
 };
 [[nodiscard]] OilLeak leak_of(const std::vector<OilRatio>& ratios, std::size_t reference);
 

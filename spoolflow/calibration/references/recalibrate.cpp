@@ -130,7 +130,8 @@ class Update {
     const std::string best = fmt::format("{:+.0f} %", percent * (ratio - 1));
     if (!friction.taken) {
       likely_friction_ratio_ = ratio;
-      say(stays("friction", friction, best));
+      const bool open = friction.evidence > -change_evidence;
+      say(stays("friction", friction, best) + (open ? "; more references would tell whether it wore" : ""));
       return;
     }
     wear_.friction_ratio *= ratio;

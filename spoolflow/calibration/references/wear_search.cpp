@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 
 #include "spoolflow/parallel/for_each.hpp"
@@ -55,8 +56,9 @@ double log_normal(double value, double deviation) {
   return -0.5 * std::pow(value / deviation, 2) - std::log(deviation);
 }
 
+/// Above 0 however far below.
 double normal_share_below(double deviations) {
-  return 0.5 * std::erfc(-deviations / std::numbers::sqrt2);
+  return std::max(0.5 * std::erfc(-deviations / std::numbers::sqrt2), std::numeric_limits<double>::min());
 }
 
 /// Of the oil beside the sensor's where wear may have changed the edges by what is usual, but not to below the
@@ -177,7 +179,7 @@ Change friction_change(std::span<const SeenFriction> seen) {
   mean /= weights;
   const double none = as_the_model_errs(same)[same_friction];
   Change out{mean, std::sqrt(square / weights - mean * mean), std::log(weights / expected) + most - none};
-  out.taken = out.evidence > change_evidence || wears;
+  out.taken = out.evidence > wear_evidence || wears;
   return out;
 }
 

@@ -20,8 +20,8 @@ double normal(double value, double deviation) {
 SeenFriction direction(double one, double other, double deviation) {
   SeenFriction out{{}, {}, false};
   for (std::size_t k = 0; k < tried_frictions; ++k) {
-    out.with_wider_edges[k] = std::log(std::exp(normal(log_ratio(k) - one, deviation)) +
-                                       std::exp(normal(log_ratio(k) - other, deviation)));
+    out.with_wider_edges[k] =
+        std::log(std::exp(normal(log_ratio(k) - one, deviation)) + std::exp(normal(log_ratio(k) - other, deviation)));
   }
   out.with_these_edges = out.with_wider_edges;
   return out;

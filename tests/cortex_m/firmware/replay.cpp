@@ -31,8 +31,10 @@ std::uint32_t reading_ticks() {
 
 void print_cost(const char* name, const std::uint32_t* counts) {
   std::uint32_t all = 0, largest = 0;
+  std::uint64_t instructions = 0;
   for (std::uint32_t k = 0; k < most_instructions; ++k) {
     all += counts[k];
+    instructions += static_cast<std::uint64_t>(counts[k]) * k;
     if (counts[k] > 0) largest = k;
   }
   std::uint32_t median = 0;
@@ -41,6 +43,8 @@ void print_cost(const char* name, const std::uint32_t* counts) {
   board::print(" steps", all);
   board::print(name);
   board::print(" median", median);
+  board::print(name);
+  board::print(" mean", all > 0 ? static_cast<std::uint32_t>((instructions + all / 2) / all) : 0);
   board::print(name);
   board::print(" largest", largest);
 }
