@@ -17,7 +17,7 @@ import pathlib
 import subprocess
 import sys
 
-SETS = {"tuning": (1913, 5101, 5102, 6201, 6202, 7301, 7302, 7303, 9401, 9402, 9403, 9404, 9405), "judged": (9411, 9412, 9413, 9414, 9415, 9416)}
+SETS = {"tuning": (1913, 5101, 5102, 6201, 6202, 7301, 7302, 7303, 9401, 9402, 9403, 9404, 9405), "judged": (9411, 9412, 9413, 9414, 9415)}
 TRUE_WEAR = {"friction_ratio": 1.3, "position_zero_m": 15e-6}  # as in WORN
 WORN = ("[wear]\nfriction_factor = 1.3\nedge_rounding_m = 10e-6\n[plant.edge_PB]\nnotch_width_m = 1.2e-3\n"
         "[instruments.lvdt]\nzero_offset_m = 15e-6\n")
