@@ -4,7 +4,7 @@
     ninja -C build/release benchmarks && python3 bench/limits.py build/release
 
 Calibrates examples/valve_a, then runs the benches of BUILD one after the other, each in its own process; `live` with 2000
-valves and a fleet of 20 where BUILD has the add-ons. Times are of this machine and this moment: what else runs meanwhile
+valves and a fleet of 100 where BUILD has the add-ons. Times are of this machine and this moment: what else runs meanwhile
 makes them longer. Standard library only.
 """
 import os
@@ -130,7 +130,7 @@ def fleet(build):
     if not reference.exists():
         return
     done = subprocess.run(["/usr/bin/python3", PROJECT / "bench" / "fleet_load.py", build.folder / "bin" / "spoolflow", reference,
-                           PROJECT / "examples", "cluster", "20", "60", "2"], stdout=subprocess.PIPE, text=True, check=False)
+                           PROJECT / "examples", "cluster", "100", "60", "2"], stdout=subprocess.PIPE, text=True, check=False)
     alone, replicated = number(r"one process ([\d.]+)", done.stdout), number(r"fleet ([\d.]+) M", done.stdout)
     row("fleet of three servers, replicated [million samples a second]", shown(replicated, 2), f"one process {shown(alone, 2)}", 1.5)
 
