@@ -118,7 +118,7 @@ void require_no_less(const MachineEvidence& evidence, const Change& edge) {
   throw CalibrationError(
       fmt::format("{} refused: so little oil passed that the edges would be {:.1f} % narrower, and wear widens them; "
                   "likely a seal leaks, another consumer is open, or the stated area or displacement is too small",
-                  names_of(evidence), -percent * edge.value));
+                  names_of(evidence), percent * (1 - std::exp(edge.value))));
 }
 
 }  // namespace spoolflow::calibration

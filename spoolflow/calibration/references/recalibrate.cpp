@@ -137,11 +137,13 @@ class Update {
     wear_.friction_ratio *= ratio;
     wear_.friction_share = friction.deviation;
     correct("friction ratio", "1", ratio, ratio * friction.deviation);
-    say(
-        fmt::format("friction {} +- {:.0f} %: with it, and edges as wide as the oil asks for, the references are "
-                    "exp({:.1f}) times as "
-                    "likely",
-                    best, percent * 2 * friction.deviation, friction.evidence));
+    const std::string why =
+        friction.evidence > 0
+            ? fmt::format(
+                  "with it, and edges as wide as the oil asks for, the references are exp({:.1f}) times as likely",
+                  friction.evidence)
+            : "expected of a valve that shows other wear; the references tell no more";
+    say(fmt::format("friction {} +- {:.0f} %: {}", best, percent * 2 * friction.deviation, why));
   }
 
   void find_edges() {
