@@ -171,17 +171,15 @@ class Update {
     const OilAgreement agreement = agreement_of(evidence_, from);
     const Change edge = edge_change(evidence_, from);
     if (agreement.deviation == 0) return;
-    if (edge.value < 0) require_no_less(evidence_, edge_with_likely_friction());
+    if (edge.value < 0) require_no_less(evidence_, likely_friction_ratio_ == 1 ? edge : edge_with_likely_friction());
     const std::string oil =
         fmt::format("{:+.1f} % of oil beside the sensor's by {}", percent * agreement.log_ratio, names_of(evidence_));
     const double share = std::exp(edge.value) - 1;
-    if (edge.evidence > contradiction_evidence && edge.value < 0) {
-      say(fmt::format(
-          "edge width stays: wear does not narrow edges, and friction that is not known well may be why; {}", oil));
-    } else if (!edge.taken) {
-      say(stays("edge width", edge, fmt::format("{:+.1f} %", percent * share)) + "; " + oil);
-    }
     if (!edge.taken) {
+      const bool contradicts = edge.value < 0 && edge.evidence > contradiction_evidence;
+      say((contradicts ? "edge width stays: wear does not narrow edges, and friction that is not known well may be why"
+                       : stays("edge width", edge, fmt::format("{:+.1f} %", percent * share))) +
+          "; " + oil);
       if (wear_ != model::WearState{}) wear_.flow_share = 0.5 * edge_wear;
       return;
     }

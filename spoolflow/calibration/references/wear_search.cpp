@@ -39,16 +39,13 @@ Change of_measured(double value, double deviation, double usual) {
   return {kept * value, std::sqrt(kept) * deviation, evidence_of_change(value, deviation, usual)};
 }
 
-/// The same view with the edges so wide that the sensor's volumes are those of the references; wear does not narrow
-/// them.
-WearView with_asked_edges(const MachineEvidence& evidence, WearView view, const std::vector<bool>& used) {
+/// The same view with the edges so wide that the sensor's volumes are those of the references, by the agreement of that
+/// view; wear does not narrow them.
+WearView with_asked_edges(const MachineEvidence& evidence, const WearView& view, const OilAgreement& oil,
+                          const std::vector<bool>& used) {
   constexpr double width_per_volume = 1 / sensor::ReferencePriors::volume_per_width, most = 0.2;
-  const double asked = std::clamp(width_per_volume * agreement_of(evidence, view).log_ratio, 0.0, most);
+  const double asked = std::clamp(width_per_volume * oil.log_ratio, 0.0, most);
   return asked > 0 ? seen_with(evidence, with_edge(view.wear, asked), used) : view;
-}
-
-double tried_log_friction(std::size_t k) {
-  return friction_step * (static_cast<double>(k) - static_cast<double>(same_friction));
 }
 
 /// Without the constant.
@@ -89,6 +86,11 @@ PerFriction as_the_model_errs(const PerFriction& log_likelihood) {
 }
 
 }  // namespace
+
+double tried_log_friction(std::size_t k) {
+  constexpr double step = 0.1;
+  return step * (static_cast<double>(k) - static_cast<double>(same_friction));
+}
 
 double evidence_of_change(double value, double deviation, double usual) {
   const double narrow = deviation * deviation, wide = narrow + usual * usual;
@@ -149,8 +151,8 @@ SeenFriction seen_friction(const MachineEvidence& evidence, const WearView& from
   if (!(agreement_of(evidence, from).deviation > 0)) return out;  // no oil, nothing seen
   parallel::for_each(tried_frictions, parallel::cores(), [&](std::size_t k) {
     const WearView view = seen_with(evidence, with_friction(from.wear, tried_log_friction(k)), used);
-    const double loss = with_asked_edges(evidence, view, used).loss;
     const OilAgreement oil = agreement_of(evidence, view);
+    const double loss = with_asked_edges(evidence, view, oil, used).loss;
     out.with_these_edges[k] = log_normal(oil.log_ratio, oil.deviation) - loss;
     out.with_wider_edges[k] = log_likelihood_of_wider_edges(oil, from.wear.edge_width) - loss;
   });

@@ -29,7 +29,7 @@ inline constexpr double percent = 100;  ///< a share of 1
 
 /// Friction tried beside that of a look: logarithms of their ratio, -0.8 to 1.0.
 inline constexpr std::size_t tried_frictions = 19, same_friction = 8;
-inline constexpr double friction_step = 0.1;
+[[nodiscard]] double tried_log_friction(std::size_t k);
 using PerFriction = std::array<double, tried_frictions>;
 
 /// What is looked at. Keeps model, recordings and references by reference.

@@ -8,10 +8,6 @@
 namespace spoolflow::calibration {
 namespace {
 
-double log_ratio(std::size_t k) {
-  return friction_step * (static_cast<double>(k) - static_cast<double>(same_friction));
-}
-
 double normal(double value, double deviation) {
   return -0.5 * std::pow(value / deviation, 2);
 }
@@ -20,8 +16,8 @@ double normal(double value, double deviation) {
 SeenFriction direction(double one, double other, double deviation) {
   SeenFriction out{{}, {}, false};
   for (std::size_t k = 0; k < tried_frictions; ++k) {
-    out.with_wider_edges[k] =
-        std::log(std::exp(normal(log_ratio(k) - one, deviation)) + std::exp(normal(log_ratio(k) - other, deviation)));
+    out.with_wider_edges[k] = std::log(std::exp(normal(tried_log_friction(k) - one, deviation)) +
+                                       std::exp(normal(tried_log_friction(k) - other, deviation)));
   }
   out.with_these_edges = out.with_wider_edges;
   return out;
