@@ -24,7 +24,7 @@ class HaltingServer(unittest.TestCase):
         try:
             reader = subprocess.Popen([READER, f"nats://127.0.0.1:{server.port}", str(MESSAGES)], text=True,
                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-            self.assertEqual(reader.stdout.readline(), "filled\n")
+            self.assertEqual(reader.stdout.readline(), "filled\n", reader.poll() is not None and reader.stderr.read())
             halts = 0
             while reader.poll() is None and halts < 300:
                 server.process.send_signal(signal.SIGSTOP)
@@ -36,6 +36,19 @@ class HaltingServer(unittest.TestCase):
             self.assertEqual((reader.returncode, complained), (0, ""), f"behind {halts} halts")
             self.assertRegex(said, "read by [0-9]+ readers")
             self.assertGreater(halts, 2)
+        finally:
+            server.stop()
+            shutil.rmtree(folder)
+
+    def test_a_server_without_room_for_the_stream_is_told_apart(self):
+        folder = tempfile.mkdtemp(prefix="spoolflow-full-")
+        server = Nats(folder, free_ports(1)[0], room="1GB")
+        try:
+            reader = subprocess.run([READER, f"nats://127.0.0.1:{server.port}", "1"], text=True, capture_output=True, timeout=60,
+                                    check=False)
+            self.assertEqual(reader.returncode, 1)
+            self.assertIn("no room for the stream", reader.stderr)
+            self.assertIn("of 4000 MB (replicas: 1)", reader.stderr)
         finally:
             server.stop()
             shutil.rmtree(folder)

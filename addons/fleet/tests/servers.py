@@ -16,10 +16,11 @@ from ports import free_ports  # noqa: E402, F401: for those who import it from h
 
 
 def until(condition, seconds, what):
+    """`what` is awaited: words, or what gives them in the end."""
     end = time.monotonic() + seconds
     while not condition():
         if time.monotonic() > end:
-            raise AssertionError(f"not within {seconds} s: {what}")
+            raise AssertionError(f"not within {seconds} s: {what() if callable(what) else what}")
         time.sleep(0.05)
 
 
@@ -63,16 +64,16 @@ PASSWORDS = {f"PASSWORD_{user}": user for user in ("worker", "hall", "yard", "sy
 
 class Nats:
     """One server, or one of a cluster: `number` counts from 0, `routes` are the cluster ports of all. `accounts`: who may
-    do what, as --setup prints it; passwords are the users' names."""
+    do what, as --setup prints it; passwords are the users' names. `room`: for streams, whatever the disk has."""
 
-    def __init__(self, folder, port, number=0, routes=(), accounts=""):
+    def __init__(self, folder, port, number=0, routes=(), accounts="", room="64GB"):
         self.port, self.process = port, None
         self.folder = os.path.join(folder, f"nats_{number}")
         os.makedirs(self.folder)
         self.configuration = os.path.join(self.folder, "nats.conf")
         with open(self.configuration, "w", encoding="utf-8") as file:
             file.write(f'server_name: "n{number}"\nlisten: "127.0.0.1:{port}"\nmax_payload: 1MB\n'
-                       f'jetstream {{ store_dir: "{self.folder}/store" }}\n{accounts}')
+                       f'jetstream {{ store_dir: "{self.folder}/store", max_file_store: {room} }}\n{accounts}')
             if routes:
                 all_routes = ", ".join(f'"nats://127.0.0.1:{route}"' for route in routes)
                 file.write(f'cluster {{ name: "fleet", listen: "127.0.0.1:{routes[number]}", routes: [{all_routes}] }}\n')

@@ -59,7 +59,7 @@ class Fleet:
             done.append(subprocess.run([self.command, "fleet", "--setup", "fleet.toml"], cwd=self.folder, text=True,
                                        capture_output=True))
             return done[-1].returncode == 0
-        until(made, 90, "a fleet that is set up")
+        until(made, 90, lambda: f"a fleet that is set up: {done[-1].stderr}")
         if not self.postgres.ask("SELECT 1 FROM pg_roles WHERE rolname = 'worker_1'"):
             self.postgres.ask("CREATE ROLE worker_1 LOGIN IN ROLE spoolflow_worker")
             self.postgres.ask("CREATE ROLE secret LOGIN PASSWORD 'secret' IN ROLE spoolflow_worker")

@@ -30,6 +30,14 @@ bool is_closed(natsConnection& connection) {
   return natsConnection_Status(&connection) == NATS_CONN_STATUS_CLOSED;
 }
 
+std::string no_room(const StreamSettings& settings) {
+  return "NATS: no room for the stream " + settings.name + " of " +
+         std::to_string(static_cast<std::int64_t>(settings.largest_MB)) +
+         " MB (replicas: " + std::to_string(settings.replicas) +
+         "): a server takes three quarters of its free disk, or max_file_store of its configuration; make room "
+         "there, or lower [nats] largest_MB of the fleet file";
+}
+
 StreamPlace place_of(const jsStreamInfo& info) {
   return {info.Created, info.State.FirstSeq, info.State.LastSeq, info.State.Msgs, info.State.Bytes};
 }
@@ -130,8 +138,11 @@ StreamPlace Connection::make_stream(const StreamSettings& settings) {
   jsStreamInfo* info = nullptr;
   jsErrCode code{};
   natsStatus status = js_AddStream(&info, by->stream.get(), &config, nullptr, &code);
-  if (status != NATS_OK && code != 0) {  // it is there with other settings
+  if (status != NATS_OK && code == JSStreamNameExistErr) {  // it is there with other settings
     status = js_UpdateStream(&info, by->stream.get(), &config, nullptr, &code);
+  }
+  if (status != NATS_OK && (code == JSStorageResourcesExceededErr || code == JSInsufficientResourcesErr)) {
+    throw TransportError(no_room(settings));
   }
   check(status, "stream " + settings.name);
   const Handle<jsStreamInfo> made(info);
