@@ -8,19 +8,20 @@ set -eu
 cd "$(dirname "$(readlink -f "$0")")/.."
 seconds=${1:-3600}
 status=0
-ci/packages.sh tests long
 begin=$(date +%s)
+part() { echo "== $((($(date +%s) - begin) / 60)) min: $1"; }
+ci/packages.sh tests long
 ci/build.sh release live_test
 ci/build.sh release benchmarks
 ci/build.sh sanitize all
-echo "== clang-tidy, and tests under sanitizers that read nothing foreign"
+part "clang-tidy, and tests under sanitizers that read nothing foreign"
 ctest --test-dir build/release -L long -j "$(nproc)" --output-on-failure || status=1
-echo "== 50 kills"
+part "50 kills"
 SPOOLFLOW_KILLS=50 build/release/addons/live/tests/live_test --gtest_filter='Kills.*' --gtest_brief=1 || status=1
 for name in live_datagram live_csv live_site live_http fleet_block; do
   ci/fuzz.sh "$seconds" "$name" || status=1
 done
-echo "== fleets whose parts are killed, 20 seeds, and one with 200 valves for ten minutes"
+part "fleets whose parts are killed, 20 seeds, and one with 200 valves for ten minutes"
 ci/build.sh release fleet_reference
 for kind in single cluster; do
   /usr/bin/python3 addons/fleet/tests/faults_test.py build/release/bin/spoolflow build/release/addons/fleet/tests/reference/fleet_reference examples $kind \
@@ -28,14 +29,14 @@ for kind in single cluster; do
   /usr/bin/python3 addons/fleet/tests/faults_test.py build/release/bin/spoolflow build/release/addons/fleet/tests/reference/fleet_reference examples $kind 1 \
     --show --large || status=1
 done
-echo "== 500 valves"
+part "500 valves"
 build/release/bench/live_load build/release/bin/spoolflow examples/live/size_6.json 500 "$seconds"
-echo "== the page of 200 valves"
+part "the page of 200 valves"
 tests/web/live_for_long.sh build/release/tests/web/page build/release/bench/live_load build/release/bin/spoolflow examples/live/size_6.json 200 \
   "$seconds" || status=1
-echo "== the playground"
+part "the playground"
 addons/playground/wasm/build.sh build/playground_page || status=1
-echo "== 200 units of a type"
+part "200 units of a type"
 ci/series.sh || status=1
 echo "== $((($(date +%s) - begin) / 60)) minutes, status $status"
 exit $status

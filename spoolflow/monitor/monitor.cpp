@@ -7,6 +7,7 @@
 #include "spoolflow/monitor/healthy_spread.hpp"
 #include "spoolflow/monitor/indicators.hpp"
 #include "spoolflow/numerics/number_check.hpp"
+#include "spoolflow/sensor/signals/oil_temperature.hpp"
 
 namespace spoolflow::monitor {
 namespace {
@@ -86,7 +87,8 @@ void Monitor::take(const estimation::TimedSample& sample, const sensor::Estimate
       sensor::Status::sample_missing | sensor::Status::time_fault | sensor::Status::position_fault;
   const bool usable = std::isfinite(sample.position_m) && !has(answer.status, sensor::Status::sample_missing) &&
                       !has(answer.status, sensor::Status::time_fault);
-  if (usable && std::isfinite(sample.oil_temperature_K) && !has(answer.status, sensor::Status::temperature_fault)) {
+  if (usable && sensor::is_oil_temperature(sample.oil_temperature_K) &&
+      !has(answer.status, sensor::Status::temperature_fault)) {
     const bool first = !(state_.oil_temperature_K > 0);
     const double pace = first ? 1.0 : std::min(time_step_s / oil_smoothing_s, 1.0);
     state_.oil_temperature_K += pace * (sample.oil_temperature_K - state_.oil_temperature_K);

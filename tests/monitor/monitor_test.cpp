@@ -60,6 +60,15 @@ TEST(Monitor, AHealthyValveRaisesNothing) {
   }
 }
 
+TEST(Monitor, NeverTakesATemperatureThatNoOilHas) {
+  Answered run = ramp();
+  run.samples.front().oil_temperature_K = 1.6e32;
+  Monitor watch(example());
+  watch.take(run.samples, run.answers);
+  EXPECT_NEAR(watch.state().oil_temperature_K, run.samples.back().oil_temperature_K, 1);
+  EXPECT_TRUE(Monitor(example()).set_state(watch.state()));
+}
+
 TEST(Monitor, CountsTowardsAnAlarmOnTheSideOfTheFaultAlone) {
   const std::vector<Indicator> indicators = Monitor(example()).indicators();
   const AlarmLimits friction = alarm_limits(named(indicators, "friction_ratio"));
