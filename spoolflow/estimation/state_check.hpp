@@ -32,7 +32,7 @@ inline bool may_be_held(int samples) {
 }
 
 inline bool may_be_observer(sensor::ObserverState<double> state) {
-  if (std::isnan(state.position.voltage_V)) state.position.voltage_V = 0;  // nobody measures it
+  if (std::isnan(state.position.coil.voltage_V)) state.position.coil.voltage_V = 0;  // nobody measures it
   return may_be_held(state.held_currents) && may_be_track(state.position) && may_be_answer(state.last) &&
          holds_numbers(state);
 }

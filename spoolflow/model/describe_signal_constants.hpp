@@ -141,6 +141,19 @@ void describe_position_fault_constants(Visitor& visitor) {
                     .unit = "m",
                     .meaning = "no acceleration is credible for more than this where neither changed"},
                    sensor::quiet_jump_m);
+  visitor.constant(
+      {.name = "calm_current_rate_per_s",
+       .unit = "1/s",
+       .meaning = "a current that changes by a larger share of the largest current a second moves the spool harder"},
+      sensor::calm_current_rate_per_s);
+  visitor.constant({.name = "hard_current_rate_per_s",
+                    .unit = "1/s",
+                    .meaning = "once more the largest acceleration is credible for each so much beyond"},
+                   sensor::hard_current_rate_per_s);
+  visitor.constant({.name = "current_change_forgotten_per_s",
+                    .unit = "1/s",
+                    .meaning = "share of the largest current by which such a change is forgotten a second"},
+                   sensor::current_change_forgotten_per_s);
   visitor.constant({.name = "longest_position_fault_s",
                     .unit = "s",
                     .meaning = "a jump of the position signal that lasts longer is accepted"},

@@ -131,6 +131,14 @@ SPOOLFLOW_INLINE constexpr void solve_current(const Coil<T>& coil, CoilState<T>&
   advance(coil.hysteresis, state.hysteresis, flux_Wb);
 }
 
+/// By how much a motion changes the current [A], in size, while the flux linkage stays: what the coil's equation
+/// u = R i + d flux/dt has of the spool's velocity.
+template <class T>
+SPOOLFLOW_NOINLINE constexpr T moved_current_A(const Coil<T>& coil, T current_A, T position_m, T travel_m) {
+  const MapPoint<T> flux = coil.flux_linkage.map.at(current_A, position_m);
+  return at_least_zero(magnitude(flux.column_slope * travel_m) / flux.row_slope);
+}
+
 template <class T>
 constexpr void demagnetise(CoilState<T>& state) {
   demagnetise(state.hysteresis);

@@ -80,9 +80,12 @@ constexpr QuietCoil<T> quiet_coil(const ObserverParameters<T>& valve) {
 template <class T>
 SPOOLFLOW_INLINE constexpr const Sample<T>& credible(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                                      const Sample<T>& measured) {
-  const T last_A = state.position.current_A;
+  const T last_A = state.position.coil.current_A;
   const bool holds =
-      is_held(valve.current_limits, {last_A, measured.current_A}, measured.time_step_s, state.held_currents);
+      is_held(valve.current_limits, {last_A, measured.current_A}, measured.time_step_s, state.held_currents, [&] {
+        const T last_m = state.position.last_m;
+        return moved_current_A(valve.actuator.coil, last_A, last_m, measured.position_m - last_m);
+      });
   state.held_currents = held_in_a_row(state.held_currents, holds);
   if (likely(!holds)) return measured;
   state.held = with_current(measured, last_A);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "spoolflow/sensor/signals/current_guard.hpp"
 #include "tests/sensor/closed_form_valve.hpp"
 
 namespace spoolflow::sensor {
@@ -92,6 +93,29 @@ TEST(Coil, MeetsTheBalanceOfItsCurrentsThoughDitherTurnsRoundBetweenTwoSamples) 
     }
     EXPECT_LT(std::sqrt(square_A2 / samples), 0.05 * 0.1) << frequency_Hz;
   }
+}
+
+TEST(Coil, AMotionChangesTheCurrentByWhatKeepsTheFlux) {
+  const Coil<double> coil = closed_form_actuator<double>(closed_form).coil;
+  const auto& map = coil.flux_linkage.map;
+  constexpr double current_A = 1.1, position_m = 1.21e-3, travel_m = 2e-5;
+  const double flux_Wb = map.at(current_A, position_m).value;
+  double low_A = 0, high_A = 2;
+  for (int k = 0; k < 50; ++k) {
+    const double middle_A = (low_A + high_A) / 2;
+    (map.at(middle_A, position_m + travel_m).value < flux_Wb ? low_A : high_A) = middle_A;
+  }
+  const double change_A = std::abs(low_A - current_A);
+  EXPECT_GT(change_A, 1e-3);
+  EXPECT_NEAR(moved_current_A(coil, current_A, position_m, travel_m), change_A, 0.05 * change_A);
+  EXPECT_NEAR(moved_current_A(coil, current_A, position_m, -travel_m), change_A, 0.05 * change_A);
+}
+
+TEST(CurrentGuard, BelievesALeapThatTheSpoolsMotionExplains) {
+  const CurrentLimits<double> limits{0.2, 490};  // 0.69 A in a millisecond
+  const CurrentStep<double> current{1.9, 1.15};
+  EXPECT_FALSE(is_held(limits, current, 1e-3, 0, [] { return 0.1; }));
+  EXPECT_TRUE(is_held(limits, current, 1e-3, 0, [] { return 0.02; }));
 }
 
 TEST(Coil, KnowsNothingOfItsHistoryAtFirst) {

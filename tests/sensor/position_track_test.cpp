@@ -26,7 +26,7 @@ class PositionTrack : public testing::TestWithParam<double> {
   /// The track over the signal of a course; `fault_m` adds to the signal. The coil's current shows no motion where
   /// it is steady, and the voltage with it where there is one.
   void follow(double duration_s, const Course& course, const Each& each, const Course& fault_m = nullptr,
-              const Course& voltage_V = nullptr) const {
+              const Course& voltage_V = nullptr, const Course& current_A = nullptr) const {
     std::mt19937 generator(3);
     std::normal_distribution<double> noise_m(0, signal_of_lvdt.noise_m);
     PositionState<double> state{};
@@ -37,6 +37,7 @@ class PositionTrack : public testing::TestWithParam<double> {
       sample.time_step_s = step_s();
       sample.position_m = course(time_s) + noise_m(generator) + (fault_m ? fault_m(time_s) : 0);
       sample.voltage_V = voltage_V ? voltage_V(time_s) : std::nan("");
+      sample.current_A = current_A ? current_A(time_s) : 0;
       each(time_s, track(signal_of_lvdt, state, sample, {.current_A = 0.01, .voltage_V = 0.2}, 313.0, {}, false));
     }
   }
@@ -139,6 +140,20 @@ TEST_P(PositionTrack, AcceptsASlipThatTheVoltageShows) {
       1, [](double time_s) { return time_s < 0.4 ? 1e-3 : 1.15e-3; },
       [&](double time_s, const PositionPoint<double>& point) { EXPECT_FALSE(point.fault) << time_s; }, nullptr,
       [](double time_s) { return time_s < 0.4 ? 5 : 5.5; });
+}
+
+TEST_P(PositionTrack, BelievesASpoolThatRingsWithItsCurrentAndNoneThatRingsByItself) {
+  if (step_s() > 2e-3 || step_s() < 1e-3) GTEST_SKIP() << "within noise, or allowed by 90 m/s2";
+  const double per_s = 2 * M_PI * 200;
+  const auto rings_m = [&](double time_s) {
+    return 1e-3 + (time_s < 0.4 ? 0 : 0.2e-3 * std::sin(per_s * time_s));
+  };  // 316 m/s2
+  const auto none = [](double /*time_s*/, const PositionPoint<double>& point) { EXPECT_FALSE(point.fault); };
+  follow(0.5, rings_m, none, nullptr, nullptr,
+         [&](double time_s) { return time_s < 0.4 ? 1 : 1 - 0.3 * std::sin(per_s * time_s); });
+  bool doubted = false;
+  follow(0.5, rings_m, [&](double /*time_s*/, const PositionPoint<double>& point) { doubted |= point.fault; });
+  EXPECT_TRUE(doubted);
 }
 
 TEST_P(PositionTrack, BelievesASpoolThatStopsInNoTime) {

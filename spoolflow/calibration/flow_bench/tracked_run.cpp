@@ -87,6 +87,7 @@ TrackedRun track_run(const recording::Recording& recording, double stroke_m, boo
   sensor::DitherState<double> dither_state;
   double largest_A = 0;
   for (const auto& sample : out.coil.samples) largest_A = std::max(largest_A, std::abs(sample.current_A));
+  const sensor::QuietCoil<double> coil{sensor::quiet_current_share * largest_A, 0};  // its voltage is not asked
   sensor::begin(dither_state, out.coil.samples.empty() ? 0.0 : out.coil.samples.front().current_A);
   Sliding sliding;
   Passage passage;
@@ -94,7 +95,7 @@ TrackedRun track_run(const recording::Recording& recording, double stroke_m, boo
   for (std::size_t k = 0; k < out.coil.size(); ++k) {
     const auto& sample = out.coil.samples[k];
     const auto dither = sensor::follow_dither(dither_state, sample.current_A, largest_A, sample.time_step_s);
-    const auto point = sensor::track(position_sensor, state, sample, sensor::QuietCoil<double>{}, 0.0, dither, false);
+    const auto point = sensor::track(position_sensor, state, sample, coil, 0.0, dither, false);
     const bool evenly = sliding.worn(point);
     if (!passage.goes_on(k, out.coil.time_s[k], point.position_m)) {
       while (!out.passing.empty() && out.passing.back().sample > passage.went_on()) out.passing.pop_back();

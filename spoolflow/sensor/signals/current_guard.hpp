@@ -22,18 +22,21 @@ struct CurrentStep {
   T now_A;
 };
 
-/// Whether the current leapt as the coil's equation allows none.
+/// Whether the current leapt as the coil's equation allows none. `moved_A`, >= 0: what the spool's motion adds.
 template <class T>
-SPOOLFLOW_INLINE constexpr bool leaps(const CurrentLimits<T>& limits, const CurrentStep<T>& current, T time_step_s) {
-  return magnitude(current.now_A - current.before_A) > limits.jump_A + limits.slope_A_per_s * time_step_s &&
+SPOOLFLOW_INLINE constexpr bool leaps(const CurrentLimits<T>& limits, const CurrentStep<T>& current, T time_step_s,
+                                      T moved_A) {
+  return magnitude(current.now_A - current.before_A) > limits.jump_A + limits.slope_A_per_s * time_step_s + moved_A &&
          limits.jump_A > T(0);
 }
 
-/// Whether the last current stands in for this one, where it did in `held` samples in a row before.
-template <class T>
+/// Whether the last current stands in for this one, where it did in `held` samples in a row before. `moved_A()`, which
+/// is asked where the spool at rest would not explain the current: by how much its motion may have changed it.
+template <class T, class Moved>
 SPOOLFLOW_INLINE constexpr bool is_held(const CurrentLimits<T>& limits, const CurrentStep<T>& current, T time_step_s,
-                                        int held) {
-  return unlikely(leaps(limits, current, time_step_s)) && held < most_held_currents;
+                                        int held, const Moved& moved_A) {
+  return unlikely(leaps(limits, current, time_step_s, T(0))) && held < most_held_currents &&
+         leaps(limits, current, time_step_s, moved_A());
 }
 
 /// Samples in a row in which the last current stood in, this one included.

@@ -46,6 +46,13 @@ inline constexpr double quiet_current_share = 0.005;
 inline constexpr double quiet_voltage_share = 0.03;
 /// ... no jump is credible by more than this [m], however long the step in which a spool could accelerate.
 inline constexpr double quiet_jump_m = 60e-6;
+/// A current that changes by more than this share of the largest current a second [1/s] moves the spool harder than any
+/// other: ...
+inline constexpr double calm_current_rate_per_s = 50;
+/// ... for each so much more [1/s] once more the largest acceleration is credible, ...
+inline constexpr double hard_current_rate_per_s = 20;
+/// ... for some milliseconds: the change is forgotten by this share of the largest current a second [1/s].
+inline constexpr double current_change_forgotten_per_s = 20;
 /// A jump that lasts longer than this [s] is accepted, but marked until that [s]: where the signal jumps back
 /// meanwhile, it was the jump that was wrong.
 inline constexpr double longest_position_fault_s = 0.25;
@@ -86,6 +93,14 @@ struct PositionNoise {
   T times{};   ///< standard deviation of one sample: 1, or what the median shows where that is more
 };
 
+/// What the coil showed.
+template <class T>
+struct CoilSignal {
+  T current_A{};  ///< in the last sample
+  T voltage_V{};
+  T change_A{};  ///< largest change of the current from one sample to the next, >= 0, forgotten in milliseconds
+};
+
 /// Trivially copyable memory of a track. The rings hold means over blocks of some milliseconds, newest at `newest`;
 /// each of the short one's stands twice, so that those before the newest lie in a row.
 template <class T>
@@ -99,8 +114,7 @@ struct PositionState {
   T last_m{};
   T step_m{};  ///< last accepted change
   PositionNoise<T> noise{};
-  T current_A{};  ///< of the coil, in the last sample
-  T voltage_V{};
+  CoilSignal<T> coil{};
   T offset_m{};               ///< what an acquisition fault adds to the signal
   T elsewhere_m{};            ///< where the spool is, from there, if the jump is the other way about than taken
   T fault_s{};                ///< how long ago the fault began; 0: there is none

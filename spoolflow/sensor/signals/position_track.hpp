@@ -127,14 +127,17 @@ SPOOLFLOW_INLINE constexpr void find_motion(const PositionSensor<T>& sensor, Pos
   state.motion = even ? motion : unsettled ? Motion::transient : Motion::rest;
 }
 
-/// How much more than its noise the signal's step [m] may credibly change: what the largest acceleration allows, or
-/// less where the coil shows no motion.
+/// How much more than its noise the signal's step [m] may credibly change: what the largest acceleration allows, more
+/// where the current has just changed fast, less where the coil shows no motion.
 template <class T>
 constexpr T accelerated_m(const PositionSensor<T>& sensor, const PositionState<T>& state, const Sample<T>& sample,
                           const QuietCoil<T>& coil) {
-  const T hardest_m = sensor.hardest_acceleration_m_per_s2 * sample.time_step_s * sample.time_step_s;
-  const bool quiet = magnitude(sample.current_A - state.current_A) < coil.current_A &&
-                     magnitude(sample.voltage_V - state.voltage_V) < coil.voltage_V &&  // not of a missing voltage
+  const T change_share = state.coil.change_A * T(quiet_current_share) / larger(coil.current_A, T(1e-12));
+  const T fast_share = at_least_zero(change_share - T(calm_current_rate_per_s) * sample.time_step_s);
+  const T hardest_m = sensor.hardest_acceleration_m_per_s2 * sample.time_step_s *
+                      (sample.time_step_s + fast_share * T(1 / hard_current_rate_per_s));
+  const bool quiet = magnitude(sample.current_A - state.coil.current_A) < coil.current_A &&
+                     magnitude(sample.voltage_V - state.coil.voltage_V) < coil.voltage_V &&  // not of a missing voltage
                      magnitude(state.step_m) < T(quiet_jump_m);  // a spool under way passes the current's peak
   return quiet ? smaller(hardest_m, T(quiet_jump_m)) : hardest_m;
 }
@@ -176,12 +179,14 @@ SPOOLFLOW_INLINE constexpr T without_faults(const PositionSensor<T>& sensor, Pos
                                             const Sample<T>& sample, const QuietCoil<T>& coil, T position_m) {
   const T noise_m = T(credible_jump_deviations) * sensor.noise_m * state.noise.times + T(credible_jump_m);
   const T change_m = position_m - state.offset_m - state.last_m;
+  const T forgotten_A = coil.current_A * (sample.time_step_s * T(current_change_forgotten_per_s / quiet_current_share));
+  state.coil.change_A = larger(magnitude(sample.current_A - state.coil.current_A), state.coil.change_A - forgotten_A);
   if (magnitude(change_m - state.step_m) > noise_m)
     judge_jump(state, change_m, noise_m + accelerated_m(sensor, state, sample, coil), sample.time_step_s);
   const T accepted_m =
       is_zero(state.fault_s) ? position_m - state.offset_m : outlast_fault(state, position_m, sample.time_step_s);
-  state.current_A = sample.current_A;
-  state.voltage_V = sample.voltage_V;
+  state.coil.current_A = sample.current_A;
+  state.coil.voltage_V = sample.voltage_V;
   state.step_m = accepted_m - state.last_m;
   state.last_m = accepted_m;
   return accepted_m;
@@ -196,6 +201,7 @@ constexpr void begin(PositionState<T>& state, T position_m) {
   state.last_m = position_m;
   state.sum_m = state.sum_s = state.step_m = state.offset_m = state.unsettled_s = state.velocity_m_per_s = T(0);
   state.acceleration_m_per_s2 = T(0);
+  state.coil.change_A = T(0);
   state.fault_s = T(0);
   state.velocity_due = false;
   state.lone = true;

@@ -193,11 +193,16 @@ SPOOLFLOW_INLINE constexpr const WholeValveSample<T>& credible(const WholeValveP
                                                                WholeValveSample<T>& held) {
   const Sides<T> now = sides(valve, state.opens_a);
   const bool opens_a = state.opens_a;
-  const T open_A = state.open.position.current_A, idle_A = state.idle.current_A, step_s = measured.time_step_s;
+  const T open_A = state.open.position.coil.current_A, idle_A = state.idle.current_A, step_s = measured.time_step_s;
+  const T last_m = state.open.position.last_m;
   const bool holds_open = is_held(now.open.current_limits, {open_A, sample_of(measured, opens_a).current_A}, step_s,
-                                  state.open.held_currents);
+                                  state.open.held_currents, [&] {
+                                    return moved_current_A(now.open.actuator.coil, open_A, opens_a ? -last_m : last_m,
+                                                           measured.position_m - state.zero_m - last_m);
+                                  });
+  // Without current there is little flux that a motion could change.
   const bool holds_idle = is_held(now.idle.current_limits, {idle_A, sample_of(measured, !opens_a).current_A}, step_s,
-                                  state.idle.held_currents);
+                                  state.idle.held_currents, [] { return T(0); });
   state.open.held_currents = held_in_a_row(state.open.held_currents, holds_open);
   state.idle.held_currents = held_in_a_row(state.idle.held_currents, holds_idle);
   if (likely(!holds_open && !holds_idle)) return measured;
@@ -279,7 +284,7 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
   const bool changes = from_centre_m < T(-centre_hysteresis_m);
   if (changes) {
     detail::change_sides(valve, state);
-    state.open.position.current_A = sample_of(sample, state.opens_a).current_A;
+    state.open.position.coil.current_A = sample_of(sample, state.opens_a).current_A;
     schedule.force_uncertainty = schedule.slip_excess = true;  // they are those of the other solenoid
   }
   state.idle.current_A = sample_of(sample, !state.opens_a).current_A;
