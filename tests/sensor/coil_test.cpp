@@ -111,7 +111,7 @@ TEST(Coil, AMotionChangesTheCurrentByWhatKeepsTheFlux) {
   EXPECT_NEAR(moved_current_A(coil, current_A, position_m, -travel_m), change_A, 0.05 * change_A);
 }
 
-TEST(CurrentGuard, BelievesALeapThatTheSpoolsMotionExplains) {
+TEST(CurrentGuard, AcceptsALeapThatTheSpoolsMotionExplains) {
   const CurrentLimits<double> limits{0.2, 490};  // 0.69 A in a millisecond
   const CurrentStep<double> current{1.9, 1.15};
   EXPECT_FALSE(is_held(limits, current, 1e-3, 0, [] { return 0.1; }));

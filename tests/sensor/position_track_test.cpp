@@ -142,7 +142,7 @@ TEST_P(PositionTrack, AcceptsASlipThatTheVoltageShows) {
       [](double time_s) { return time_s < 0.4 ? 5 : 5.5; });
 }
 
-TEST_P(PositionTrack, BelievesASpoolThatRingsWithItsCurrentAndNoneThatRingsByItself) {
+TEST_P(PositionTrack, AcceptsASpoolThatRingsWithItsCurrentAndNoneThatRingsByItself) {
   if (step_s() > 2e-3 || step_s() < 1e-3) GTEST_SKIP() << "within noise, or allowed by 90 m/s2";
   const double per_s = 2 * M_PI * 200;
   const auto rings_m = [&](double time_s) {
