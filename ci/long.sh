@@ -13,7 +13,7 @@ part() { echo "== $((($(date +%s) - begin) / 60)) min: $1"; }
 ci/packages.sh tests long
 ci/build.sh release live_test
 ci/build.sh release benchmarks
-ci/build.sh sanitize all
+ci/build.sh sanitize all -DSPOOLFLOW_SANITIZE_ALL=ON
 part "clang-tidy, and tests under sanitizers that read nothing foreign"
 ctest --test-dir build/release -L long -j "$(nproc)" --output-on-failure || status=1
 part "50 kills"

@@ -6,6 +6,9 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 # -O3 is for what calculates (FAST): elsewhere it takes longer to compile and nothing less to run.
 string(REPLACE "-O3" "-O2" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  add_compile_options(--param=ggc-min-heapsize=2000000)  # KiB: collecting its own garbage takes the compiler a tenth of its time
+endif()
 if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   add_compile_options(-ffp-contract=off) # products and sums are rounded one by one, as they are there: the same answers everywhere
 endif()
@@ -78,6 +81,14 @@ function(spoolflow_fast target)
   endif()
 endfunction()
 
+# spoolflow_from_plain_build(TARGET LINKS…): the library as the build without sanitizers has made it (SPOOLFLOW_PLAIN_BUILD).
+function(spoolflow_from_plain_build target)
+  file(RELATIVE_PATH place ${PROJECT_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR})
+  add_library(${target} STATIC IMPORTED GLOBAL)
+  set_target_properties(${target} PROPERTIES IMPORTED_LOCATION ${SPOOLFLOW_PLAIN_BUILD}/${place}/lib${target}.a)
+  target_link_libraries(${target} INTERFACE spoolflow_settings ${ARGN})
+endfunction()
+
 # spoolflow_folder(NAME [LIGHT|FAST] [JOINED group] [LINKS target…] [PRIVATE_LINKS target…] [APART file…])
 # All *.cpp of the folder, but those that are compiled apart, become the library spoolflow_NAME, in addons/ addons_NAME; a folder
 # without *.cpp is header-only. A part has its folder's name before its own: rig/plant becomes spoolflow_rig_plant. LIGHT and
@@ -126,10 +137,11 @@ function(spoolflow_folder name)
   endif()
 endfunction()
 
-# spoolflow_joined(GROUP [LIGHT|FAST] [HARDENED] [OBJECTS count]): the library joined_GROUP of all folders that are JOINED to the
-# group, behind them all. Folders that see the same headers take half the time to compile together. OBJECTS: in so many pieces.
+# spoolflow_joined(GROUP [LIGHT|FAST] [HARDENED] [READS_NOTHING] [OBJECTS count]): the library joined_GROUP of all folders that
+# are JOINED to the group, behind them all. Folders that see the same headers take half the time to compile together. OBJECTS: in
+# so many pieces. READS_NOTHING: no byte of a file or of the network, so that ./test takes it without sanitizers; ci/long.sh does not.
 function(spoolflow_joined group)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "LIGHT;FAST;HARDENED" "OBJECTS" "")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "LIGHT;FAST;HARDENED;READS_NOTHING" "OBJECTS" "")
   foreach(list IN ITEMS folders sources links private_links)
     get_property(${list} GLOBAL PROPERTY joined_${group}_${list})
   endforeach()
@@ -138,6 +150,10 @@ function(spoolflow_joined group)
     list(REMOVE_ITEM ${list} ${folders})
   endforeach()
   set(target joined_${group})
+  if(arg_READS_NOTHING AND SPOOLFLOW_PLAIN_BUILD AND NOT SPOOLFLOW_SANITIZE_ALL)
+    spoolflow_from_plain_build(${target} ${links} ${private_links})
+    return()
+  endif()
   add_library(${target} STATIC ${sources})
   target_link_libraries(${target} PUBLIC spoolflow_settings ${links} PRIVATE spoolflow_warnings ${private_links})
   if(arg_LIGHT)

@@ -4,6 +4,7 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "spoolflow/plausibility/campaign_findings.hpp"
@@ -38,7 +39,7 @@ struct RigBenches {
 
 /// A short campaign: one oil temperature, four pressure differences. Seed 0: as designed; else valve number `seed` of a
 /// series with the whole spread of manufacturing.
-inline RigBenches rig_benches(const std::string& preset, std::uint64_t seed) {
+inline RigBenches measured_benches(const std::string& preset, std::uint64_t seed) {
   rig::ValveAndCampaign asked = rig::read_valve_and_campaign(preset);
   if (seed != 0) {
     asked.valve.seed = seed;
@@ -59,6 +60,14 @@ inline RigBenches rig_benches(const std::string& preset, std::uint64_t seed) {
         kept.file = item.file;
       }});
   return out;
+}
+
+/// The same, measured once for all tests.
+inline const RigBenches& rig_benches(const std::string& preset, std::uint64_t seed) {
+  static std::map<std::pair<std::string, std::uint64_t>, RigBenches> measured;
+  const auto [place, added] = measured.try_emplace({preset, seed});
+  if (added) place->second = measured_benches(preset, seed);
+  return place->second;
 }
 
 }  // namespace spoolflow::plausibility

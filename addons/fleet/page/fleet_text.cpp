@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include <fmt/format.h>
+
 #include "addons/live/http/json_text.hpp"
 #include "addons/live/page/alarm_text.hpp"
 #include "spoolflow/sensor/basis/status.hpp"

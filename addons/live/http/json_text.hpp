@@ -1,13 +1,12 @@
 #pragma once
 /// Numbers and times as the interface writes them. Included by the files that write JSON only: it is a long read.
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <string>
 
-#include <fmt/chrono.h>
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include "addons/live/valve/utc_text.hpp"
 
 namespace spoolflow::live {
 
@@ -19,11 +18,6 @@ inline Json rounded(double value, int decimals) {
   return std::round(value * power) / power;
 }
 
-inline std::string utc(std::int64_t wall_ms) {
-  const std::chrono::sys_time<std::chrono::seconds> second{std::chrono::seconds(wall_ms / 1000)};
-  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(std::chrono::system_clock::to_time_t(second)),
-                     wall_ms % 1000);
-}
 /// Null where it has not happened.
 inline Json utc_or_null(std::int64_t wall_ms) {
   return wall_ms == 0 ? Json(nullptr) : Json(utc(wall_ms));

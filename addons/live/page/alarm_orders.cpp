@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include <fmt/format.h>
+
 #include "addons/live/page/alarm_text.hpp"
 
 namespace spoolflow::live {

@@ -1,5 +1,7 @@
 #include "addons/live/page/history_text.hpp"
 
+#include <fmt/format.h>
+
 #include "addons/live/engine.hpp"
 #include "addons/live/http/json_text.hpp"
 #include "addons/live/http/target.hpp"

@@ -1,7 +1,6 @@
 /// `spoolflow history`: what a store of `spoolflow live` keeps of a valve, as CSV.
 #include <cmath>
 #include <cstdint>
-#include <ctime>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -9,11 +8,11 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include "addons/live/history/store.hpp"
 #include "addons/live/program/live_commands.hpp"
+#include "addons/live/valve/utc_text.hpp"
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/terminal/output_file.hpp"
 #include "spoolflow/estimation/status_text.hpp"
@@ -40,11 +39,6 @@ std::int64_t instant_ms(const std::string& text, const char* option) {
   if (!text.empty() && end == last && std::abs(seconds) < 1e12) return std::llround(1e3 * seconds);
   throw std::invalid_argument(fmt::format(
       "{}: '{}' is no instant; write 2026-11-22, 2026-11-22T10:30:00Z (UTC), or seconds since 1970", option, text));
-}
-
-std::string utc(std::int64_t wall_ms) {
-  const auto second = static_cast<std::time_t>(std::floor(static_cast<double>(wall_ms) / 1000));
-  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(second), wall_ms - std::int64_t{1000} * second);
 }
 
 /// Raw samples that were kept around an alarm.
@@ -80,7 +74,7 @@ void history(const HistoryArguments& arguments) {
     estimation::StatusText status_text;
     live::read_history(arguments.store, arguments.valve, from_ms, to_ms, [&](const live::HistoryRow& row) {
       const live::Summary& of = row.summary;
-      writer.text(utc(row.wall_ms));
+      writer.text(live::utc(row.wall_ms));
       writer.number(of.time_s, 6);
       writer.number(static_cast<double>(of.samples), 0);
       for (const double flow : {of.flow_min_m3_per_s, of.flow_mean_m3_per_s, of.flow_max_m3_per_s,

@@ -1,10 +1,10 @@
 #include "addons/live/valve/event_text.hpp"
 
 #include <cstdlib>
-#include <ctime>
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
+
+#include "addons/live/valve/utc_text.hpp"
 
 namespace spoolflow::live {
 namespace {
@@ -32,10 +32,9 @@ Event condition_event(const ValveView& valve, monitor::Ne107 before, std::int64_
 
 std::string clock_text(std::int64_t wall_ms, std::int64_t step_ms) {
   return fmt::format(
-      "the system clock was set {} by {}, to {:%Y-%m-%dT%H:%M:%SZ}; no row is deleted or overwritten for it, and rows "
+      "the system clock was set {} by {}, to {}; no row is deleted or overwritten for it, and rows "
       "have the time of day that the clock shows",
-      step_ms > 0 ? "forward" : "back", duration(std::abs(step_ms)),
-      fmt::gmtime(static_cast<std::time_t>(wall_ms / 1000)));
+      step_ms > 0 ? "forward" : "back", duration(std::abs(step_ms)), utc(wall_ms));
 }
 
 Event alarm_event(const ValveView& valve, const AlarmChange& change, std::int64_t wall_ms) {

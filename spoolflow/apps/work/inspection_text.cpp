@@ -15,7 +15,7 @@ namespace {
 /// Every text among the values is made harmless.
 template <class... Values>
 void add(std::string& out, fmt::format_string<detail::Harmless<Values>...> format, const Values&... values) {
-  fmt::format_to(std::back_inserter(out), format, detail::harmless(values)...);
+  out += fmt::format(format, detail::harmless(values)...);
 }
 
 /// The unit that people read a channel in.

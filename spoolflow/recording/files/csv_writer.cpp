@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <ostream>
 #include <utility>
-
-#include <fmt/format.h>
 
 namespace spoolflow::recording {
 namespace {
@@ -145,7 +144,7 @@ inline char* put_number(char* at, double value, unsigned decimals) {
     return put_decimals(at, static_cast<std::uint64_t>(digits), decimals);
   }
   if (std::isnan(value)) return at;
-  return fmt::format_to_n(at, longest_number, "{:.{}f}", value, decimals).out;
+  return std::to_chars(at, at + longest_number, value, std::chars_format::fixed, static_cast<int>(decimals)).ptr;
 }
 
 }  // namespace
