@@ -65,8 +65,13 @@ SolenoidLimits RunningSensor::limits() const {
   return {coil_limits(*condensed_), coil_limits(condensed_a_ ? *condensed_a_ : *condensed_)};
 }
 
-const sensor::Estimate<double>& RunningSensor::answer(const sensor::Sample<double>& sample,
-                                                      const TimedSample& measured) {
+// All in one piece where it is optimised: an observer's sample takes 15 % less time than with calls of the step's
+// parts, of which the linker may take copies that another file was given less optimisation for.
+#ifdef __OPTIMIZE__
+[[gnu::flatten]]
+#endif
+const sensor::Estimate<double>&
+RunningSensor::answer(const sensor::Sample<double>& sample, const TimedSample& measured) {
   if (const auto* observer = std::get_if<const sensor::ObserverParameters<double>*>(&parameters_))
     return sensor::step(**observer, state_.observer, sample);
   if (const auto* whole = std::get_if<sensor::WholeValveParameters<double>>(&parameters_))

@@ -18,8 +18,23 @@ inline double lag_share(double step_s, double lag_s) {
   return -std::expm1(-step_s / lag_s);
 }
 
-/// Steps that differ by less than this share are one: the difference of two times is rounded.
-inline constexpr double same_step = 1e-9;
+/// The same, step after step: an exponential is asked for where the step changes.
+class LagShare {
+ public:
+  explicit LagShare(double lag_s) : lag_s_(lag_s) {}
+  double operator()(double step_s) {
+    constexpr double same_step = 1e-9;  // as a share of it: the difference of two times is rounded
+    if (std::abs(step_s - step_s_) > same_step * step_s_) {
+      step_s_ = step_s;
+      share_ = lag_share(step_s, lag_s_);
+    }
+    return share_;
+  }
+
+ private:
+  double lag_s_;
+  double step_s_ = 0, share_ = 0;
+};
 
 /// What such a meter shows of `values`, in place: exactly, for values that hold between samples. Before the dead time
 /// is over it shows the first value; a NaN is no value, and the meter shows what it showed before.
@@ -33,13 +48,9 @@ void apply_lag(std::span<const double> time_s, std::span<Number> values, const M
     }
   }
   if (!(meter.lag_s > 0)) return;
-  double step_s = 0, share = 0;
+  LagShare share_of(meter.lag_s);
   for (std::size_t k = 1; k < values.size(); ++k) {
-    const double this_s = time_s[k] - time_s[k - 1];
-    if (std::abs(this_s - step_s) > same_step * step_s) {
-      step_s = this_s;
-      share = lag_share(step_s, meter.lag_s);
-    }
+    const double share = share_of(time_s[k] - time_s[k - 1]);
     const double change = values[k] - values[k - 1];
     values[k] = static_cast<Number>(std::isnan(change) ? values[k - 1] : values[k - 1] + share * change);
   }
