@@ -155,7 +155,7 @@ TEST(CampaignFindings, NameEachOfSixtyRecordingErrorsOnTwoValvesAndNothingOnSoun
 }
 
 TEST(CampaignFindings, NameAReferenceThatIsTwoSecondsLateInTheCampaignsRun) {
-  RigBenches valve = rig_benches("size_10", 7);
+  RigBenches valve = rig_benches("size_10", 32);
   EXPECT_THAT(all_texts(campaign_findings(valve.benches())), testing::IsEmpty());
   shift_by(valve.recordings.at("ramp_25bar.csv"), 2);
   EXPECT_THAT(all_texts(campaign_findings(valve.benches())),
