@@ -18,13 +18,14 @@ inline double lag_share(double step_s, double lag_s) {
   return -std::expm1(-step_s / lag_s);
 }
 
-/// The same, step after step: an exponential is asked for where the step changes.
+/// The same, step after step: an exponential is asked for where the step changes. All of it where there is no lag.
 class LagShare {
  public:
   explicit LagShare(double lag_s) : lag_s_(lag_s) {}
   double operator()(double step_s) {
+    if (!(lag_s_ > 0)) return 1;
     constexpr double same_step = 1e-9;  // as a share of it: the difference of two times is rounded
-    if (std::abs(step_s - step_s_) > same_step * step_s_) {
+    if (!(std::abs(step_s - step_s_) <= same_step * step_s_)) {  // nor of no number
       step_s_ = step_s;
       share_ = lag_share(step_s, lag_s_);
     }

@@ -32,8 +32,8 @@ Event condition_event(const ValveView& valve, monitor::Ne107 before, std::int64_
 
 std::string clock_text(std::int64_t wall_ms, std::int64_t step_ms) {
   return fmt::format(
-      "the system clock was set {} by {}, to {}; no row is deleted or overwritten for it, and rows "
-      "have the time of day that the clock shows",
+      "the system clock was set {} by {}, to {}; no row is deleted or overwritten for it, and rows have the time of "
+      "day that the clock shows",
       step_ms > 0 ? "forward" : "back", duration(std::abs(step_ms)), utc(wall_ms));
 }
 

@@ -47,10 +47,10 @@ struct ReplayedSample {
 /// What the meter's lag makes of one answer after the other.
 class LaggedAnswer {
  public:
-  explicit LaggedAnswer(double lag_s) : lag_s_(lag_s), share_of_(lag_s) {}
+  explicit LaggedAnswer(double lag_s) : share_of_(lag_s) {}
   const Shown& show(const sensor::Estimate<double>& answer, double time_s) {
     const bool first = std::isnan(shown_.flow);
-    const double share = first || !(lag_s_ > 0) ? 1 : share_of_(time_s - last_s_);
+    const double share = first ? 1 : share_of_(time_s - last_s_);
     if (first) shown_ = {0, 0, 0};
     last_s_ = time_s;
     shown_.flow += share * (answer.flow_m3_per_s - shown_.flow);
@@ -60,7 +60,6 @@ class LaggedAnswer {
   }
 
  private:
-  double lag_s_;
   numerics::LagShare share_of_;
   double last_s_ = 0;
   Shown shown_{std::nan(""), 0, 0};

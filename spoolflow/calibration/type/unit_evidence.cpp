@@ -253,14 +253,14 @@ void UnitEvidence::add_forces(const Run& run, const sensor::ObserverParameters<d
 void UnitEvidence::add_flows(const Run& run, const sensor::ObserverParameters<double>& unit,
                              const UnitUnknowns& unknowns, Eigen::VectorXd& sums) const {
   double seen_m3_per_s = NAN;
+  numerics::LagShare share_of(run.meter.lag_s + run.meter.dead_time_s);
   for (const Sample& sample : run.samples) {
     const double pressure_Pa = std::max(0.0, sample.pressure_Pa);
     const double flow_m3_per_s = unit.edge.at(sample.temperature_K, pressure_Pa, sample.position_m).conductance *
                                  std::sqrt(pressure_Pa) *
                                  (1 + unknowns.conductance_tilt * (2 * sample.position_m / type_.valve.stroke_m - 1));
     if (std::isnan(flow_m3_per_s)) continue;
-    const double lag_s = run.meter.lag_s + run.meter.dead_time_s;
-    const double share = std::isnan(seen_m3_per_s) || !(lag_s > 0) ? 1 : numerics::lag_share(sample.time_step_s, lag_s);
+    const double share = std::isnan(seen_m3_per_s) ? 1 : share_of(sample.time_step_s);
     if (std::isnan(seen_m3_per_s)) seen_m3_per_s = 0;
     seen_m3_per_s += share * (flow_m3_per_s - seen_m3_per_s);
     if (sample.flow_row >= 0) sums(sample.flow_row) += sample.flow_m3_per_s - (1 + unknowns.meter_gain) * seen_m3_per_s;
