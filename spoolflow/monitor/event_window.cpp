@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "spoolflow/monitor/dense.hpp"
@@ -39,14 +40,6 @@ constexpr double least_shape_pressure_share = 0.1;
 /// A misfit below this is not accepted.
 constexpr double least_misfit = 0.3;
 
-/// The window's equations about one pressure difference.
-struct Equations {
-  std::size_t size = 0;
-  double stroke_m = 0;
-  std::array<Explained, window_events> row;
-  std::array<double, window_events> variance_N2;
-};
-
 /// Friction over its map differs from place to place: one standard deviation as a share of the limit, alike within this
 /// share of the stroke, and the same both ways.
 constexpr double friction_shape_share = 0.08;
@@ -55,6 +48,23 @@ constexpr double friction_shape_length = 0.25;
 /// What rest adds to friction is no better known than by this share of it, one standard deviation, alike in a window.
 constexpr double ageing_share = 0.15;
 
+/// The window's equations about one pressure difference.
+struct Equations {
+  std::size_t size = 0;
+  std::array<Explained, window_events> row;
+  std::array<double, window_events> variance_N2;
+  std::vector<double> friction_N2;  ///< covariance of the residuals by what friction may differ, row after row
+};
+
+/// Covariance of two residuals by what friction differs from its map, and rest from what it adds.
+double friction_covariance_N2(double stroke_m, const ForceEvent& one, const Explained& a, const ForceEvent& other,
+                              const Explained& b) {
+  const double apart = std::abs(one.position_m - other.position_m) / (friction_shape_length * stroke_m);
+  return one.direction * other.direction *
+         (friction_shape_share * friction_shape_share * a.friction_limit_N * b.friction_limit_N * std::exp(-apart) +
+          ageing_share * ageing_share * a.ageing_N * b.ageing_N);
+}
+
 /// Covariance of the residuals with magnitudes of standard deviations `magnitude_scale`, factorised; empty on failure.
 std::vector<double> factor_of(const Equations& equations, const WindowState& window, const Restlessness& how,
                               double highest_Pa, const Magnitudes& magnitude_scale) {
@@ -62,24 +72,18 @@ std::vector<double> factor_of(const Equations& equations, const WindowState& win
   std::vector<double> out(n * n);
   const double first2 = std::pow(pressure_deviation_share * highest_Pa, 2);
   const double walk2 = std::pow(how.walk_share * highest_Pa, 2);
+  const double load2 = how.load_share * how.load_share;
   const double begin_s = window.events[0].time_s;
   for (std::size_t r = 0; r < n; ++r) {
     const Explained& a = equations.row[r];
+    Magnitudes scaled_N = a.slope_N;
+    for (std::size_t k = 0; k < magnitudes; ++k) scaled_N[k] *= magnitude_scale[k] * magnitude_scale[k];
     for (std::size_t c = 0; c <= r; ++c) {
       const Explained& b = equations.row[c];
       const double since_s = std::min(window.events[r].time_s, window.events[c].time_s) - begin_s;
-      double sum = a.per_pressure_N_Pa * b.per_pressure_N_Pa * (first2 + walk2 * since_s) +
-                   how.load_share * how.load_share * a.load_slope_N * b.load_slope_N;
-      const double apart = std::abs(window.events[r].position_m - window.events[c].position_m) /
-                           (friction_shape_length * equations.stroke_m);
-      const double friction = friction_shape_share * friction_shape_share * window.events[r].direction *
-                              window.events[c].direction * a.friction_limit_N * b.friction_limit_N;
-      sum += friction * std::exp(-apart);
-      sum += ageing_share * ageing_share * window.events[r].direction * window.events[c].direction * a.ageing_N *
-             b.ageing_N;
-      for (std::size_t k = 0; k < magnitudes; ++k)
-        sum += a.slope_N[k] * b.slope_N[k] * magnitude_scale[k] * magnitude_scale[k];
-      out[r * n + c] = sum;
+      out[r * n + c] = a.per_pressure_N_Pa * b.per_pressure_N_Pa * (first2 + walk2 * since_s) +
+                       load2 * a.load_slope_N * b.load_slope_N + equations.friction_N2[r * n + c] +
+                       product(scaled_N, b.slope_N);
     }
     out[r * n + r] += equations.variance_N2[r];
   }
@@ -135,12 +139,18 @@ double misfit_of(const Equations& equations, const std::vector<double>& factor, 
   return sum / static_cast<double>(equations.size);
 }
 
+/// A restlessness, and the covariance that it makes, factorised; empty where it has none.
+struct Likeliest {
+  std::size_t kind = 0;
+  std::vector<double> factor;
+};
+
 /// The likeliest restlessness, faults of usual size allowed.
-std::size_t likeliest(const Equations& equations, const WindowState& window, double highest_Pa) {
-  std::size_t best = 0;
+Likeliest likeliest(const Equations& equations, const WindowState& window, double highest_Pa) {
+  Likeliest best;
   double most = -1e300;
   for (std::size_t k = 0; k < restless.size(); ++k) {
-    const std::vector<double> factor = factor_of(equations, window, restless[k], highest_Pa, filled(1));
+    std::vector<double> factor = factor_of(equations, window, restless[k], highest_Pa, filled(1));
     if (factor.empty()) continue;
     std::vector<double> solved = residuals(equations);
     const std::vector<double> y = solved;
@@ -148,7 +158,7 @@ std::size_t likeliest(const Equations& equations, const WindowState& window, dou
     const double likelihood = restless[k].before - 0.5 * (log_determinant(factor, equations.size) + product(y, solved));
     if (likelihood > most) {
       most = likelihood;
-      best = k;
+      best = {k, std::move(factor)};
     }
   }
   return best;
@@ -169,9 +179,8 @@ double pressure_error_Pa(const Equations& equations, const WindowState& window, 
 }
 
 /// Events that nothing explains count less.
-void weigh_unusual(const Equations& equations, const WindowState& window, const Restlessness& how, double highest_Pa,
+void weigh_unusual(const Equations& equations, const std::vector<double>& factor,
                    std::array<double, window_events>& weight) {
-  const std::vector<double> factor = factor_of(equations, window, how, highest_Pa, filled(1));
   if (factor.empty()) return;
   std::vector<double> solved = residuals(equations);
   solve_in_place(factor, equations.size, solved);
@@ -184,12 +193,17 @@ void weigh_unusual(const Equations& equations, const WindowState& window, const 
 
 void set_up(const sensor::ObserverParameters<double>& valve, double stroke_m, const WindowState& window,
             double pressure_Pa, const std::array<double, window_events>& weight, Equations& equations) {
-  equations.size = window.count;
-  equations.stroke_m = stroke_m;
-  for (std::size_t k = 0; k < window.count; ++k) {
-    const ForceEvent& event = window.events[k];
-    equations.row[k] = explain(valve, stroke_m, event, pressure_Pa);
-    equations.variance_N2[k] = std::pow(equations.row[k].noise_N, 2) * weight[k];
+  const std::size_t n = window.count;
+  equations.size = n;
+  equations.friction_N2.assign(n * n, 0);
+  for (std::size_t r = 0; r < n; ++r) {
+    const ForceEvent& event = window.events[r];
+    equations.row[r] = explain(valve, stroke_m, event, pressure_Pa);
+    equations.variance_N2[r] = std::pow(equations.row[r].noise_N, 2) * weight[r];
+    for (std::size_t c = 0; c <= r; ++c) {
+      equations.friction_N2[r * n + c] =
+          friction_covariance_N2(stroke_m, event, equations.row[r], window.events[c], equations.row[c]);
+    }
   }
 }
 
@@ -245,8 +259,9 @@ std::optional<WindowResult> fit_window(const sensor::ObserverParameters<double>&
   double error_Pa = 0;
   for (int iteration = 0;; ++iteration) {
     set_up(valve, stroke_m, window, pressure_Pa, weight, equations);
-    kind = likeliest(equations, window, highest_Pa);
-    if (iteration < 2) weigh_unusual(equations, window, restless[kind], highest_Pa, weight);
+    const Likeliest found = likeliest(equations, window, highest_Pa);
+    kind = found.kind;
+    if (iteration < 2) weigh_unusual(equations, found.factor, weight);
     error_Pa = pressure_error_Pa(equations, window, restless[kind], highest_Pa);
     const bool settled = std::abs(error_Pa) < settled_share * highest_Pa;
     if (iteration + 1 >= least_iterations && (settled || iteration + 1 >= most_iterations)) break;

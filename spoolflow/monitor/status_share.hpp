@@ -1,7 +1,7 @@
 #pragma once
 /// For which share of the last minutes each status was set, and the sign of NE 107 that this makes.
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <type_traits>
 
 #include "spoolflow/monitor/condition.hpp"
@@ -35,13 +35,19 @@ struct StatusShares {
 };
 static_assert(std::is_trivially_copyable_v<StatusShares>);
 
+/// A share that has fallen below this is forgotten: further it would become denormal, which takes long to compute with.
+inline constexpr double forgotten_share = 1e-9;
+
 /// One answer; `time_step_s` >= 0 and finite.
 inline void follow_status(StatusShares& state, sensor::Status status, double time_step_s) {
   for (std::size_t k = 0; k < status_rules.size(); ++k) {
     const StatusRule& rule = status_rules[k];
-    const double pace = std::fmin(time_step_s / rule.memory_s, 1.0);
-    state.share[k] += pace * ((sensor::has(status, rule.status) ? 1.0 : 0.0) - state.share[k]);
-    state.raised[k] = state.share[k] > (state.raised[k] ? 0.5 : 1.0) * rule.share;
+    const bool set = sensor::has(status, rule.status);
+    double& share = state.share[k];
+    if (!set && share == 0) continue;  // as nearly always
+    share += std::min(time_step_s / rule.memory_s, 1.0) * ((set ? 1.0 : 0.0) - share);
+    if (share < forgotten_share) share = 0;
+    state.raised[k] = share > (state.raised[k] ? 0.5 : 1.0) * rule.share;
   }
 }
 

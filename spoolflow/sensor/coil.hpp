@@ -38,9 +38,9 @@ struct EddyCurrents {
 
   [[nodiscard]] constexpr EddyCurrent<T> at(T flux_rate_V) const {
     const T size = magnitude(flux_rate_V);
-    const T per_root = T(1) / sqrt(size + smallest_rate_V);
-    const T share = size * per_root * per_root;  // 0 where proportional, 1 where the root law holds
-    const T excess = excess_A_per_rootV * per_root;
+    const T per_rate = T(1) / (size + smallest_rate_V);  // beside the root, on which it need not wait
+    const T share = size * per_rate;                     // 0 where proportional, 1 where the root law holds
+    const T excess = excess_A_per_rootV * (sqrt(size + smallest_rate_V) * per_rate);
     return {(classical_A_per_V + excess) * flux_rate_V, classical_A_per_V + excess * (T(1) - T(0.5) * share)};
   }
 };

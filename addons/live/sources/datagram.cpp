@@ -22,6 +22,21 @@ double& member(estimation::TimedSample& sample, const DatagramChannel& channel) 
   return channel.member != nullptr ? sample.*channel.member : sample.ports.*channel.port;
 }
 
+/// The channels of these bits, in their order.
+class ChannelsThere {
+ public:
+  explicit ChannelsThere(unsigned bits) {
+    for (std::size_t bit = 0; bit < datagram_channels.size(); ++bit) {
+      if ((bits >> bit & 1U) != 0) channels_[count_++] = &datagram_channels[bit];
+    }
+  }
+  [[nodiscard]] std::span<const DatagramChannel* const> all() const { return {channels_.data(), count_}; }
+
+ private:
+  std::array<const DatagramChannel*, datagram_channels.size()> channels_{};
+  std::size_t count_ = 0;
+};
+
 estimation::TimedSample nothing_measured(double time_s) {
   constexpr double none = estimation::not_measured;
   return {time_s, none, none, none, none, none, none, {none, none, none, none}};
@@ -64,20 +79,19 @@ std::variant<Datagram, NoDatagram> read_datagram(std::span<const std::uint8_t> b
     return NoDatagram::no_sense;
   }
   out.samples.reserve(count);
+  const ChannelsThere there(channels);
+  const bool both_coils = (channels & (1U << 4U)) != 0;
   std::size_t at = datagram_header_bytes;
   for (std::size_t k = 0; k < count; ++k) {
     const double time_s = 1e-9 * (static_cast<double>(time_ns) + static_cast<double>(k) * period_ns);
-    estimation::TimedSample sample = nothing_measured(time_s);
-    for (std::size_t bit = 0; bit < datagram_channels.size(); ++bit) {
-      if ((channels >> bit & 1U) == 0) continue;
+    estimation::TimedSample& sample = out.samples.emplace_back(nothing_measured(time_s));
+    for (const DatagramChannel* const channel : there.all()) {
       const float value = std::bit_cast<float>(little_endian<std::uint32_t>(bytes, at));
-      member(sample, datagram_channels[bit]) = std::isfinite(value) ? double{value} : estimation::not_measured;
+      member(sample, *channel) = std::isfinite(value) ? double{value} : estimation::not_measured;
       at += 4;
     }
     // See estimation::of_both_coils: measured, but not now.
-    const bool both_coils = (channels & (1U << 4U)) != 0;
     if (both_coils && std::isnan(sample.current_a_A)) sample.current_a_A = std::numeric_limits<double>::infinity();
-    out.samples.push_back(sample);
   }
   return out;
 }
@@ -96,11 +110,11 @@ std::vector<std::uint8_t> write_datagram(const DatagramHeader& header,
   put_little_endian(out, header.period_ns);
   out.insert(out.end(), header.valve.begin(), header.valve.end());
   out.resize(datagram_header_bytes, 0);
+  const ChannelsThere there(header.channels);
+  out.reserve(datagram_header_bytes + 4 * there.all().size() * samples.size() + datagram_checksum_bytes);
   for (estimation::TimedSample sample : samples) {
-    for (std::size_t bit = 0; bit < datagram_channels.size(); ++bit) {
-      if ((header.channels >> bit & 1U) == 0) continue;
-      put_little_endian(out, std::bit_cast<std::uint32_t>(static_cast<float>(member(sample, datagram_channels[bit]))));
-    }
+    for (const DatagramChannel* const channel : there.all())
+      put_little_endian(out, std::bit_cast<std::uint32_t>(static_cast<float>(member(sample, *channel))));
   }
   put_little_endian(out, numerics::crc32(out));
   return out;

@@ -1,6 +1,7 @@
 #pragma once
 /// The last half minute of a valve's answers, thinned so that a page can follow them at any sampling rate: smallest and
 /// largest flow, the band's ends and the status of each fiftieth of a second.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -27,13 +28,13 @@ class PlotTrace {
   void add(double time_s, double position_m, double current_A, const sensor::Estimate<double>& answer) {
     const double slot = std::floor(time_s / plot_point_s);
     if (begun_ == 0 || slot != slot_) open(slot);
-    PlotPoint& point = points_[(begun_ - 1) % points_.size()];
+    PlotPoint& point = points_[newest_];
     const auto flow = static_cast<float>(answer.flow_m3_per_s);
     point.time_s = time_s;
-    point.flow_min_m3_per_s = std::fmin(point.flow_min_m3_per_s, flow);
-    point.flow_max_m3_per_s = std::fmax(point.flow_max_m3_per_s, flow);
-    point.lower_min_m3_per_s = std::fmin(point.lower_min_m3_per_s, static_cast<float>(answer.flow_lower_m3_per_s));
-    point.upper_max_m3_per_s = std::fmax(point.upper_max_m3_per_s, static_cast<float>(answer.flow_upper_m3_per_s));
+    point.flow_min_m3_per_s = std::min(point.flow_min_m3_per_s, flow);
+    point.flow_max_m3_per_s = std::max(point.flow_max_m3_per_s, flow);
+    point.lower_min_m3_per_s = std::min(point.lower_min_m3_per_s, static_cast<float>(answer.flow_lower_m3_per_s));
+    point.upper_max_m3_per_s = std::max(point.upper_max_m3_per_s, static_cast<float>(answer.flow_upper_m3_per_s));
     point.position_m = static_cast<float>(position_m);
     point.current_A = static_cast<float>(current_A);
     point.status |= static_cast<std::uint32_t>(answer.status);
@@ -53,9 +54,11 @@ class PlotTrace {
     if (points_.empty()) points_.resize(plot_points);
     slot_ = slot;
     constexpr float far = std::numeric_limits<float>::infinity();
-    points_[begun_++ % points_.size()] = {0, far, -far, far, -far, 0, 0, 0};
+    newest_ = begun_++ % points_.size();
+    points_[newest_] = {0, far, -far, far, -far, 0, 0, 0};
   }
   double slot_ = 0;
+  std::size_t newest_ = 0;  ///< the place of the point that grows
   std::uint64_t begun_ = 0;
   std::vector<PlotPoint> points_;
 };

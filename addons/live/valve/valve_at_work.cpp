@@ -96,9 +96,9 @@ bool ValveAtWork::restore(const KeptState& kept) {
 /// Once a second of the source's clock, so that the same samples get the same answers at any speed: doubt changes with
 /// the monitor's windows, which last longer.
 void ValveAtWork::ask_doubt(double time_s) {
-  const double second = std::floor(time_s);
-  if (second == doubt_second_ || !std::isfinite(second)) return;
-  doubt_second_ = second;
+  const bool same_second = time_s >= doubt_second_ && time_s - doubt_second_ < 1;
+  if (same_second || !std::isfinite(time_s)) return;
+  doubt_second_ = std::floor(time_s);
   doubt_ = watch_->doubt();
 }
 

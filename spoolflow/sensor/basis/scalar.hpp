@@ -30,9 +30,20 @@ constexpr int table_index(T value) {
   return static_cast<int>(value);
 }
 
+/// The bits of a float or a double, which order positive numbers as they are; the sign bit and NaN lie beyond.
+template <class T>
+constexpr auto bits_of(T value) {
+  return bits_as<std::conditional_t<sizeof(T) == sizeof(std::uint32_t), std::uint32_t, std::uint64_t>>(value);
+}
+/// Whether numbers are compared by their bits: one comparison of integers, no detour over the floating-point unit's
+/// flags.
+template <class T>
+inline constexpr bool by_bits = SPOOLFLOW_CONSTANT_BITS != 0 && (std::is_same_v<T, float> || std::is_same_v<T, double>);
+
 /// Whether 0 <= value < highest, where highest > 0.
 template <class T>
 constexpr bool within(T value, T highest) {
+  if constexpr (by_bits<T>) return bits_of(value) < bits_of(highest);
   return value >= T(0) && value < highest;
 }
 
@@ -82,26 +93,24 @@ constexpr T squared(T value) {
 /// Whether a number is nothing, as what was never set; not whether arithmetic has come to nothing.
 template <class T>
 constexpr bool is_zero(T value) {
+  if constexpr (by_bits<T>) return bits_of(value) << 1U == 0U;
   return same(value, T(0));
 }
 
 /// Whether an input, in SI units, was measured at all: not NaN, not infinite, not beyond what any valve has.
 template <class T>
 constexpr bool is_number(T value) {
+  if constexpr (by_bits<T>) return bits_of(value) << 1U < bits_of(T(1 << 30)) << 1U;
   return value > T(-(1 << 30)) && value < T(1 << 30);
 }
 
 #if SPOOLFLOW_CONSTANT_BITS
-/// A float's bits as a number with a sign, which orders positive floats as they are. By way of the number without a
-/// sign that `within` compares: compilers then see that it is the same word, and fetch it once.
+/// A float's bits as a number with a sign. By way of the number without one that `within` compares: compilers then see
+/// that it is the same word, and fetch it once.
 constexpr std::int32_t signed_bits(float value) {
-  return static_cast<std::int32_t>(bits_as<std::uint32_t>(value));
+  return static_cast<std::int32_t>(bits_of(value));
 }
-/// Positive floats are ordered as their bits are; the sign bit and NaN lie beyond: one comparison of integers.
-constexpr bool within(float value, float highest) {
-  return bits_as<std::uint32_t>(value) < bits_as<std::uint32_t>(highest);
-}
-/// By their bits: no detour over the floating-point unit's flags. A limit may also be below zero, or NaN a value.
+/// A limit may also be below zero, or NaN a value.
 constexpr bool lies_below(float value, float limit) {
   return signed_bits(value) < signed_bits(limit);
 }
@@ -112,13 +121,6 @@ constexpr bool lies_above(float value, float limit) {
 constexpr float at_least_zero(float value) {
   const auto bits = signed_bits(value);
   return bits_as<float>(bits & ~(bits >> 31));
-}
-/// By the bits without their sign.
-constexpr bool is_zero(float value) {
-  return bits_as<std::uint32_t>(value) << 1U == 0U;
-}
-constexpr bool is_number(float value) {
-  return bits_as<std::uint32_t>(value) << 1U < bits_as<std::uint32_t>(0x1p30F) << 1U;
 }
 #endif
 
