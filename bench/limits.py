@@ -132,7 +132,7 @@ def fleet(build):
     if not reference.exists():
         return
     done = subprocess.run(["/usr/bin/python3", PROJECT / "bench" / "fleet_load.py", build.folder / "bin" / "spoolflow", reference,
-                           PROJECT / "examples", "cluster", "100", "60", "2"], stdout=subprocess.PIPE, text=True, check=False)
+                           PROJECT / "examples", "cluster", "100", "180", "2"], stdout=subprocess.PIPE, text=True, check=False)
     alone, replicated = number(r"one process ([\d.]+)", done.stdout), number(r"fleet ([\d.]+) M", done.stdout)
     row("fleet of three servers, replicated [million samples a second]", shown(replicated, 2), f"one process {shown(alone, 2)}", 1.5)
 
