@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "spoolflow/plausibility/block_means.hpp"
@@ -17,6 +18,22 @@ constexpr std::size_t most_blocks = 4000;
 /// Where at least half of a block's samples are numbers.
 double mean(double sum, std::uint64_t count, std::uint64_t width) {
   return 2 * count >= width && count > 0 ? sum / static_cast<double>(count) : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Of those that are numbers.
+struct Sum {
+  double value = 0;
+  std::uint64_t count = 0;
+};
+Sum sum_of(std::span<const double> values) {
+  double sum = 0;
+  std::uint64_t count = 0;
+  for (const double value : values) {
+    const bool usable = std::isfinite(value);
+    sum += usable ? value : 0;
+    count += usable;
+  }
+  return {sum, count};
 }
 
 }  // namespace
@@ -58,18 +75,12 @@ void RunMeans::take(const recording::SampleBlock& block) {
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       const std::vector<double>& values = block.columns[c];
       if (values.empty()) continue;
-      double sum = 0;
-      std::uint64_t count = 0;
-      for (std::size_t row = begin; row < end; ++row) {
-        const bool usable = std::isfinite(values[row]);
-        sum += usable ? values[row] : 0;
-        count += usable;
-      }
+      const Sum sum = sum_of(std::span(values).subspan(begin, end - begin));
       Column& column = columns_[c];
       column.sums.resize(blocks_, 0.0);
       column.counts.resize(blocks_, 0);
-      column.sums.back() += sum;
-      column.counts.back() += count;
+      column.sums.back() += sum.value;
+      column.counts.back() += sum.count;
     }
     filled_ += end - begin;
     begin = end;
@@ -82,8 +93,9 @@ void RunMeans::take(const recording::SampleBlock& block) {
   for (const Channel coil : {both ? Channel::current_b : Channel::current, Channel::current_a}) {
     const std::size_t k = coil == Channel::current_a;
     steady_lines_.current[k].take(time_s, block.column(coil));
-    for (const double current_A : block.column(coil))
-      steady_lines_.largest_current_A[k] = std::max(steady_lines_.largest_current_A[k], current_A);
+    double largest_A = steady_lines_.largest_current_A[k];
+    for (const double current_A : block.column(coil)) largest_A = std::max(largest_A, current_A);
+    steady_lines_.largest_current_A[k] = largest_A;
   }
 }
 

@@ -1,5 +1,7 @@
 #include "spoolflow/monitor/usage.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "spoolflow/monitor/status_share.hpp"
@@ -52,6 +54,16 @@ TEST(StatusShares, AFaultThatLastsIsAFailureAndOneSampleIsNone) {
   EXPECT_EQ(sign_of(shares), Ne107::failure);
   for (int k = 0; k < 60000; ++k) follow_status(shares, sensor::Status::none, 1e-3);
   EXPECT_EQ(sign_of(shares), Ne107::good);
+}
+
+TEST(StatusShares, AFaultLongAgoIsForgottenBeforeItsShareIsNoOrdinaryNumber) {
+  StatusShares shares;
+  follow_status(shares, sensor::Status::coil_fault, 1e-3);
+  for (int second = 0; second < 86400; ++second) {
+    follow_status(shares, sensor::Status::none, 1);
+    for (const double share : shares.share) ASSERT_NE(std::fpclassify(share), FP_SUBNORMAL) << second;
+  }
+  EXPECT_EQ(shares.share, StatusShares{}.share);
 }
 
 TEST(StatusShares, MissingSamplesAreAFunctionCheck) {
