@@ -34,7 +34,7 @@ class Calibration(examples.InAFolder):
             entry["file"] = simulated[entry["file"]]
         type_model = spoolflow.calibrate(campaign, as_type=True)
         self.assertIsNotNone(type_model.type)
-        self.assertFalse(type_model.type["unit"])
+        self.assertEqual(type_model.type["of"], "type")
         strokes = self.written("strokes.toml", """protocol = "unpressurised_strokes"
 valve = "size_6"
 seed = 1
@@ -44,7 +44,7 @@ seed = 1
         type_model.save(path)
         models = [spoolflow.calibrate(unit, type=each) for each in (type_model, path)]
         self.assertEqual(models[0].name, "serial 17")
-        self.assertTrue(models[0].type["unit"])
+        self.assertEqual(models[0].type["of"], "unit")
         run = spoolflow.simulate(self.written("ramp.toml", """protocol = "ramps"
 valve = "size_6"
 seed = 1
