@@ -32,7 +32,7 @@ TEST(SeriesStudy, CountsRefusedUnitsAndNothingOfTheirFigures) {
 /// Two units with little of a campaign, which take half a minute: not for every day (ci/long.sh).
 TEST(SeriesStudy, DISABLED_AMinuteKnowsUnitsBetterThanTheirTypeWhateverTheThreadsAndInterruptions) {
   const model::Model type =
-      calibration::type_model(model::read_model(SPOOLFLOW_EXAMPLE_MODEL), calibration::tolerances_from({}));
+      calibration::type_model(model::read_model(SPOOLFLOW_SIZE_6_MODEL), calibration::tolerances_from({}));
   rig::ValveAndCampaign asked = rig::read_valve_and_campaign("size_6");
   asked.campaign.oil_temperatures_C = {40, 60};
   asked.campaign.pressure_differences_bar = {20, 45, 70};
