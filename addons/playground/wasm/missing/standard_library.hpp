@@ -1,7 +1,7 @@
 #pragma once
 /// What of C++20 the standard library of emscripten 3.1.6 (libc++ 13) lacks and this project uses: algorithms over
-/// ranges, bits taken for another type, and numbers in their shortest text. Included before every source of the
-/// playground's build and of no other.
+/// ranges, bits taken for another type, and numbers in their shortest text or with fixed decimals. Included before
+/// every source of the playground's build and of no other.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -44,6 +44,14 @@ to_chars_result to_chars(char* first, char* last, Number value) {
   }
   if (last - first < static_cast<ptrdiff_t>(text.size())) return {last, errc::value_too_large};
   return {std::copy(text.begin(), text.end(), first), errc()};
+}
+
+/// With so many decimals; of the formats `fixed` alone.
+template <floating_point Number>
+to_chars_result to_chars(char* first, char* last, Number value, chars_format, int decimals) {
+  const auto put = fmt::format_to_n(first, last - first, "{:.{}f}", value, decimals);
+  if (put.size > static_cast<size_t>(last - first)) return {last, errc::value_too_large};
+  return {put.out, errc()};
 }
 
 /// The compiler knows it, the library's header does not yet.
