@@ -28,7 +28,7 @@ class PlotTrace {
   void add(double time_s, double position_m, double current_A, const sensor::Estimate<double>& answer) {
     const double slot = std::floor(time_s / plot_point_s);
     if (begun_ == 0 || slot != slot_) open(slot);
-    PlotPoint& point = points_[newest_];
+    PlotPoint& point = points_[(begun_ - 1) % plot_points];
     const auto flow = static_cast<float>(answer.flow_m3_per_s);
     point.time_s = time_s;
     point.flow_min_m3_per_s = std::min(point.flow_min_m3_per_s, flow);
@@ -54,11 +54,9 @@ class PlotTrace {
     if (points_.empty()) points_.resize(plot_points);
     slot_ = slot;
     constexpr float far = std::numeric_limits<float>::infinity();
-    newest_ = begun_++ % points_.size();
-    points_[newest_] = {0, far, -far, far, -far, 0, 0, 0};
+    points_[begun_++ % plot_points] = {0, far, -far, far, -far, 0, 0, 0};
   }
   double slot_ = 0;
-  std::size_t newest_ = 0;  ///< the place of the point that grows
   std::uint64_t begun_ = 0;
   std::vector<PlotPoint> points_;
 };
