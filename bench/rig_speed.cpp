@@ -66,7 +66,7 @@ void many_valves(int rounds) {
   constexpr double seconds = 10;
   fmt::print(
       "\nThe same of a series of valves, one core: one after the other, and {} at once in the registers there are\n",
-      valves_at_once(plant_registers().back()));
+      plants_at_once());
   for (const char* preset : {"size_6", "fast_dither", "whole_size_6"}) {
     std::vector<ValveUnderTest> valves;
     std::vector<BenchRun> runs;

@@ -150,7 +150,7 @@ std::vector<RunErrors> StudyRuns::run(const model::Model& model, std::span<const
 std::size_t StudyRuns::runs_at_once(std::size_t runs, unsigned workers) const {
   constexpr double most_kept_s = 600;  // of recordings and truths in memory
   const auto kept = static_cast<std::size_t>(most_kept_s / scenario_.study.run_s);
-  const std::size_t wanted = std::min(rig::valves_at_once(rig::plant_registers().back()), kept);
+  const std::size_t wanted = std::min(rig::plants_at_once(), kept);
   return std::clamp<std::size_t>(runs / std::max(1U, workers), 1, std::max<std::size_t>(1, wanted));
 }
 

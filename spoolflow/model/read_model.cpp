@@ -6,8 +6,8 @@
 #include "spoolflow/model/describe_campaign.hpp"
 #include "spoolflow/model/describe_condensed.hpp"
 #include "spoolflow/model/describe_observer.hpp"
-#include "spoolflow/model/json_limits.hpp"
 #include "spoolflow/model/json_tables.hpp"
+#include "spoolflow/model/json_text.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/model/model_limits.hpp"
 

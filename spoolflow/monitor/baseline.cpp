@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "spoolflow/model/json_limits.hpp"
+#include "spoolflow/model/json_text.hpp"
 #include "spoolflow/model/model_error.hpp"
 
 namespace spoolflow::monitor {
@@ -108,8 +108,7 @@ std::string baseline_text(const Baseline& baseline) {
 }
 
 Baseline parse_baseline(const std::string& text, const std::string& file) {
-  model::require_json_limits(text, file);
-  const Json json = Json::parse(text, nullptr, false);
+  const Json json = model::parsed_json(text, file);
   if (json.is_discarded() || !json.is_object()) refuse(file, "/", "this is no JSON object");
   const auto found = json.find("baseline");
   if (found == json.end() || !found->is_object()) refuse(file, "/baseline", "there is none");

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "spoolflow/numerics/equations/symmetric_equations.hpp"
 #include "spoolflow/numerics/median.hpp"
 #include "spoolflow/plausibility/block_means.hpp"
 #include "spoolflow/plausibility/limits.hpp"
@@ -70,8 +70,8 @@ OffsetStep offset_step(const OpeningCurve& curve, const std::vector<OpenBlock>& 
   const Eigen::Vector3d size = matrix.diagonal().cwiseSqrt();
   const Eigen::Matrix3d alike = size.cwiseInverse().asDiagonal() * matrix * size.cwiseInverse().asDiagonal();
   if (!(alike.determinant() > least)) return {};
-  const Eigen::Vector3d with = matrix.ldlt().solve(right);
-  const Eigen::Vector2d without = matrix.topLeftCorner<2, 2>().ldlt().solve(right.head<2>());
+  const Eigen::Vector3d with = numerics::solve_symmetric(matrix, right);
+  const Eigen::Vector2d without = numerics::solve_symmetric(matrix.topLeftCorner<2, 2>(), right.head<2>());
   out.scale = with[0];
   out.step_m = with[2] / with[0];
   out.residual2 = std::max(out.flow2 - without.dot(right.head<2>()), 0.0);

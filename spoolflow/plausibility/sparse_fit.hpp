@@ -6,8 +6,9 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
+
+#include "spoolflow/numerics/equations/symmetric_equations.hpp"
 
 namespace spoolflow::plausibility {
 
@@ -43,7 +44,7 @@ class SparseFit {
     const double least = ridge * std::max(matrix_.trace() / static_cast<double>(matrix_.rows()), 1e-300);
     Eigen::MatrixXd damped = matrix_;
     damped.diagonal().array() += least;
-    const Eigen::VectorXd solution = damped.ldlt().solve(right_);
+    const Eigen::VectorXd solution = numerics::solve_symmetric(damped, right_);
     return {solution.begin(), solution.end()};
   }
 

@@ -16,7 +16,7 @@
 #include "addons/python/module/signal_check.hpp"
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/estimation/status_text.hpp"
-#include "spoolflow/model/json_limits.hpp"
+#include "spoolflow/model/json_text.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::python {

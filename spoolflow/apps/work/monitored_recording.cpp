@@ -4,7 +4,7 @@
 
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/estimation/recordings/sensor_channels.hpp"
-#include "spoolflow/model/json_limits.hpp"
+#include "spoolflow/model/json_text.hpp"
 #include "spoolflow/monitor/baseline.hpp"
 
 namespace spoolflow::apps {

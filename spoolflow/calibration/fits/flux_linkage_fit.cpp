@@ -5,11 +5,11 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "spoolflow/calibration/fits/position_sensor.hpp"
 #include "spoolflow/calibration/numerics/fitted_parameters.hpp"
+#include "spoolflow/numerics/equations/symmetric_equations.hpp"
 #include "spoolflow/numerics/median.hpp"
 
 namespace spoolflow::calibration {
@@ -174,7 +174,7 @@ Solution solve(const FluxChanges& changes, double inductance_H, const Eigen::Vec
   }
   const double step_A = changes.map.row_axis.spacing;
   add_smoothness(matrix, 0.03 * inductance_H * step_A, changes.resistance_step_Ohm);
-  const Eigen::MatrixXd covariance = matrix.ldlt().solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
+  const Eigen::MatrixXd covariance = numerics::inverse_of_symmetric(matrix);
   return {covariance * right, covariance};
 }
 

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <map>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "spoolflow/calibration/fits/coil_deviation.hpp"
 #include "spoolflow/calibration/numerics/fitted_parameters.hpp"
 #include "spoolflow/calibration/numerics/nonnegative_least_squares.hpp"
+#include "spoolflow/numerics/equations/symmetric_equations.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -96,14 +96,14 @@ Trial solve(const CoilTask& task, const CoilUnknowns& start, double coercive_A) 
     at << here, best.corrections_N;
     const Eigen::VectorXd right = curvature * at - best.deviation.gradient;
     const auto coupling = curvature.topRightCorner(coil_unknowns, free);
-    const Eigen::LDLT<Eigen::MatrixXd> free_part(curvature.bottomRightCorner(free, free));
+    const Eigen::MatrixXd free_part = numerics::inverse_of_symmetric(curvature.bottomRightCorner(free, free));
     const NormalEquations reduced{
-        curvature.topLeftCorner(coil_unknowns, coil_unknowns) - coupling * free_part.solve(coupling.transpose()),
-        right.head(coil_unknowns) - coupling * free_part.solve(right.tail(free))};
+        curvature.topLeftCorner(coil_unknowns, coil_unknowns) - coupling * free_part * coupling.transpose(),
+        right.head(coil_unknowns) - coupling * free_part * right.tail(free)};
     const Eigen::VectorXd next = solve_nonnegative(reduced);
     CoilUnknowns unknowns;
     Eigen::VectorXd::Map(unknowns.data(), coil_unknowns) = next;
-    const Eigen::VectorXd corrections_N = free_part.solve(right.tail(free) - coupling.transpose() * next);
+    const Eigen::VectorXd corrections_N = free_part * (right.tail(free) - coupling.transpose() * next);
     CoilDeviation deviation = evaluate(unknowns, corrections_N);
     const double gain = best.deviation.sum_of_squares - deviation.sum_of_squares;
     if (gain > 0) {
@@ -217,10 +217,9 @@ model::Fit known_parameters(const sensor::Coil<double>& coil, const Trial& solut
   const Eigen::Index all = solution.deviation.curvature.rows();
   std::vector<Eigen::Index> free = above_zero(Eigen::VectorXd::Map(solution.unknowns.data(), coil_unknowns));
   for (Eigen::Index k = coil_unknowns; k < all; ++k) free.push_back(k);
-  const auto count = static_cast<Eigen::Index>(free.size());
   const Eigen::MatrixXd curvature = solution.deviation.curvature(free, free);
   const double variance_N2 = solution.deviation.sum_of_squares / solution.samples_counted;
-  const Eigen::MatrixXd known = variance_N2 * curvature.ldlt().solve(Eigen::MatrixXd::Identity(count, count));
+  const Eigen::MatrixXd known = variance_N2 * numerics::inverse_of_symmetric(curvature);
   const Eigen::MatrixXd covariance = spread_over(all, free, known).topLeftCorner(coil_unknowns, coil_unknowns);
   std::vector<std::string> names;
   std::vector<double> values;

@@ -5,10 +5,9 @@
 #include <cmath>
 #include <numeric>
 
-#include <Eigen/Cholesky>
-
 #include "spoolflow/calibration/fits/bench_strokes.hpp"
 #include "spoolflow/calibration/fits/position_sensor.hpp"
+#include "spoolflow/numerics/equations/symmetric_equations.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -95,7 +94,7 @@ LevelSolution solve_level(const MeteredStrokes& strokes, const Level& level, dou
             weight * difference[static_cast<std::size_t>(r)] * difference[static_cast<std::size_t>(c)];
   }
   LevelSolution out;
-  out.conductance = matrix.selfadjointView<Eigen::Lower>().ldlt().solve(right);
+  out.conductance = numerics::solve_symmetric(matrix, right);
   each_sample(strokes, *first, *last, stroke_m, lag_s, [&](const auto& shares, double flow) {
     const double deviation = flow - shares.dot(out.conductance);
     out.sum_of_squares += deviation * deviation;

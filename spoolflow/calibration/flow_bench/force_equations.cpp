@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
+#include "spoolflow/numerics/equations/symmetric_equations.hpp"
 #include "spoolflow/numerics/median.hpp"
 
 namespace spoolflow::calibration {
@@ -35,9 +34,7 @@ class Equations {
       right_(r) += weight * of_r * right;
     }
   }
-  [[nodiscard]] Eigen::MatrixXd inverse() const {
-    return matrix_.ldlt().solve(Eigen::MatrixXd::Identity(matrix_.rows(), matrix_.cols()));
-  }
+  [[nodiscard]] Eigen::MatrixXd inverse() const { return numerics::inverse_of_symmetric(matrix_); }
   [[nodiscard]] const Eigen::VectorXd& right() const { return right_; }
 
  private:

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
-#include "spoolflow/calibration/numerics/definite_matrix.hpp"
+#include "spoolflow/numerics/equations/symmetric_equations.hpp"
 
 namespace spoolflow::calibration {
 
@@ -33,7 +33,7 @@ LinearLeastSquares least_squares(const Eigen::MatrixXd& matrix, const Eigen::Vec
     sums += right(r) * matrix.row(r).transpose();
   }
   std::optional<Eigen::MatrixXd> inverse;
-  if (matrix.rows() >= unknowns) inverse = inverse_of_definite(normal);
+  if (matrix.rows() >= unknowns) inverse = numerics::inverse_of_definite(normal);
   if (!inverse) {
     throw CalibrationError(
         fmt::format("{} cannot be identified: {} values do not determine {} unknowns", what, matrix.rows(), unknowns));

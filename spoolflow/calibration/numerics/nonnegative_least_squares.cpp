@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include <Eigen/Cholesky>
+#include "spoolflow/numerics/equations/symmetric_equations.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -12,7 +12,7 @@ Eigen::VectorXd solve_free(const NormalEquations& equations, const std::vector<E
   const Eigen::MatrixXd matrix = equations.matrix(free, free);
   const Eigen::VectorXd right = equations.right(free);
   Eigen::VectorXd all = Eigen::VectorXd::Zero(equations.right.size());
-  const Eigen::VectorXd solution = matrix.ldlt().solve(right);
+  const Eigen::VectorXd solution = numerics::solve_symmetric(matrix, right);
   all(free) = solution;
   return all;
 }

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "spoolflow/calibration/numerics/definite_matrix.hpp"
 #include "spoolflow/calibration/numerics/fitted_parameters.hpp"
 #include "spoolflow/calibration/operation/operation_score.hpp"
+#include "spoolflow/numerics/equations/symmetric_equations.hpp"
 #include "spoolflow/parallel/for_each.hpp"
 
 namespace spoolflow::calibration {
@@ -34,7 +34,7 @@ Eigen::MatrixXd inverse_of(Eigen::MatrixXd curvature, double pull) {
   const Eigen::Index unknowns = curvature.rows();
   if (!curvature.allFinite() || !(pull > 0)) return Eigen::MatrixXd::Zero(unknowns, unknowns);
   for (double added = pull;; added *= 2) {
-    if (std::optional<Eigen::MatrixXd> inverse = inverse_of_definite(curvature)) return *inverse;
+    if (std::optional<Eigen::MatrixXd> inverse = numerics::inverse_of_definite(curvature)) return *inverse;
     curvature.diagonal().array() += added;
   }
 }

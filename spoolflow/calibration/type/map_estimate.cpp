@@ -4,9 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
-#include "spoolflow/calibration/numerics/definite_matrix.hpp"
+#include "spoolflow/calibration/numerics/covariance.hpp"
+#include "spoolflow/numerics/equations/symmetric_equations.hpp"
 #include "spoolflow/numerics/median.hpp"
 
 namespace spoolflow::calibration {
@@ -100,7 +99,7 @@ UnitFit most_likely_unit(const UnitEvidence& evidence, const KnownDeviations& kn
     precision = slope.transpose() * weights.asDiagonal() * slope + prior.precision;
     const Eigen::VectorXd uphill =
         slope.transpose() * (weights.array() * rows.array()).matrix() + prior.precision * (x - prior.mean);
-    Eigen::VectorXd step = precision.ldlt().solve(-uphill);
+    Eigen::VectorXd step = numerics::solve_symmetric(precision, -uphill);
     bool better = false;
     double next = here;
     for (int halving = 0; halving < most_halvings && !better; ++halving, step *= better ? 1 : 0.5) {

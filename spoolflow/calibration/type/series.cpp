@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
-#include "spoolflow/calibration/numerics/definite_matrix.hpp"
+#include "spoolflow/calibration/numerics/covariance.hpp"
 #include "spoolflow/calibration/type/spread.hpp"
 #include "spoolflow/calibration/type/type_model.hpp"
 #include "spoolflow/calibration/type/unit_parameters.hpp"

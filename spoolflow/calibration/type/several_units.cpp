@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
-#include "spoolflow/calibration/numerics/definite_matrix.hpp"
+#include "spoolflow/calibration/numerics/covariance.hpp"
 #include "spoolflow/calibration/type/calibrate_unit.hpp"
 #include "spoolflow/calibration/type/type_model.hpp"
 #include "spoolflow/calibration/type/unit_population.hpp"
 #include "spoolflow/calibration/type/unit_tables.hpp"
 #include "spoolflow/model/residual_of.hpp"
+#include "spoolflow/numerics/equations/symmetric_equations.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -65,7 +65,7 @@ UnitLikelihood likelihood_of(const TableComparison& comparison, const KnownDevia
     const Eigen::VectorXd weights = comparison.weights(round < searching ? Eigen::VectorXd::Zero(left.size()) : left);
     out.precision = slope.transpose() * weights.asDiagonal() * slope;
     out.weighted = out.precision * x - slope.transpose() * weights.asDiagonal() * left;
-    x = (out.precision + prior_precision).llt().solve(out.weighted + prior_precision * prior.mean);
+    x = numerics::solve_symmetric(out.precision + prior_precision, out.weighted + prior_precision * prior.mean);
   }
   return out;
 }

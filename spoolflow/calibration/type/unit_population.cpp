@@ -1,6 +1,6 @@
 #include "spoolflow/calibration/type/unit_population.hpp"
 
-#include "spoolflow/calibration/numerics/definite_matrix.hpp"
+#include "spoolflow/calibration/numerics/covariance.hpp"
 
 namespace spoolflow::calibration {
 

@@ -14,7 +14,7 @@
 #include "spoolflow/estimation/state_check.hpp"
 #include "spoolflow/export/c_interface/spoolflow.h"
 #include "spoolflow/export/state_bytes.hpp"
-#include "spoolflow/model/json_limits.hpp"
+#include "spoolflow/model/json_text.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/numerics/padding.hpp"
 

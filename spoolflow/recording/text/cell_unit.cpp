@@ -47,11 +47,11 @@ std::size_t number_end(std::string_view text) {
     digits = digits || is_digit(text[at]);
   if (!digits) return 0;
   if (at < text.size() && (text[at] == 'e' || text[at] == 'E')) {
-    std::size_t power = at + 1;
-    if (power < text.size() && (text[power] == '-' || text[power] == '+')) ++power;
-    if (power < text.size() && is_digit(text[power])) {
-      while (power < text.size() && is_digit(text[power])) ++power;
-      at = power;
+    std::size_t exponent = at + 1;
+    if (exponent < text.size() && (text[exponent] == '-' || text[exponent] == '+')) ++exponent;
+    if (exponent < text.size() && is_digit(text[exponent])) {
+      while (exponent < text.size() && is_digit(text[exponent])) ++exponent;
+      at = exponent;
     }
   }
   return at;

@@ -14,8 +14,8 @@ namespace {
 
 /// Short rows of a wide table take more memory than the file: within the bounds of other formats.
 std::vector<std::vector<double>> all_numbers(CsvTable& text, const std::string& file) {
-  constexpr std::size_t block_numbers = std::size_t{1} << 18;
-  const std::size_t block_rows = 1 + block_numbers / text.columns().size();
+  constexpr std::size_t buffer_numbers = std::size_t{1} << 18;
+  const std::size_t block_rows = 1 + buffer_numbers / text.columns().size();
   std::vector<std::size_t> all(text.columns().size());
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
   text.select(all);

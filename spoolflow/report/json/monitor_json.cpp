@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "spoolflow/model/json_text.hpp"
 #include "spoolflow/monitor/baseline.hpp"
 #include "spoolflow/report/json/type_json.hpp"
 
@@ -69,7 +70,7 @@ void write_monitor_json(std::ostream& out, const model::Model& model, const moni
               {"share_of_time", doubt.samples > 0 ? doubt.doubted / doubt.samples : 0.0},
               {"band_factor", doubt.sensor_m3_per_s > 0 ? doubt.widened_m3_per_s / doubt.sensor_m3_per_s : 1.0}}},
             {"runs", each},
-            {"baseline", Json::parse(monitor::baseline_text(watch.learnt()))}};
+            {"baseline", model::parsed_json(monitor::baseline_text(watch.learnt()), "baseline")}};
   add_type(json, model);
   out << json.dump(1) << '\n';
 }

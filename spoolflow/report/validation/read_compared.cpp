@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "spoolflow/model/json_limits.hpp"
+#include "spoolflow/model/json_text.hpp"
 #include "spoolflow/report/validation/comparison.hpp"
 #include "spoolflow/units/conversion.hpp"
 
@@ -53,8 +53,7 @@ ComparedValidation read_compared(const std::filesystem::path& metrics_file) {
   std::ifstream in(metrics_file);
   if (!in) throw MetricsError(fmt::format("{}: cannot be read; {}", metrics_file.string(), remedy));
   const std::string text = model::read_json_text(in);
-  model::require_json_limits(text, metrics_file.string());
-  const Json json = Json::parse(text, nullptr, false);
+  const Json json = model::parsed_json(text, metrics_file.string());
   if (json.is_discarded()) throw MetricsError(fmt::format("{}: is no JSON; {}", metrics_file.string(), remedy));
   if (at<std::string>(json, "/format", metrics_file) != "spoolflow metrics") {
     throw MetricsError(fmt::format("{}: its format is not \"spoolflow metrics\"; {}", metrics_file.string(), remedy));

@@ -166,8 +166,7 @@ std::vector<std::vector<std::size_t>> items_at_once(const std::vector<CampaignIt
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t one, std::size_t two) { return runs[one].duration_s() > runs[two].duration_s(); });
-  const std::size_t most =
-      std::clamp<std::size_t>(items.size() / (2 * std::max(1U, workers)), 1, valves_at_once(plant_registers().back()));
+  const std::size_t most = std::clamp<std::size_t>(items.size() / (2 * std::max(1U, workers)), 1, plants_at_once());
   std::vector<std::vector<std::size_t>> out;
   const auto fits = [&](const std::vector<std::size_t>& group, std::size_t item) {
     const BenchRun& first = runs[group.front()];

@@ -76,9 +76,6 @@ struct ScalarTypes<Lanes<count>> {
 /// Whether it holds for one valve at least.
 template <int count>
 bool any(const LaneMask<count>& mask) {
-#if defined(__AVX512DQ__)
-  if constexpr (count == 8) return _mm512_movepi64_mask(std::bit_cast<__m512i>(mask.bits)) != 0;
-#endif
 #if defined(__AVX__)
   if constexpr (count == 4) return _mm256_movemask_pd(std::bit_cast<__m256d>(mask.bits)) != 0;
 #endif
@@ -139,10 +136,6 @@ Lanes<count> magnitude(const Lanes<count>& x) {
 template <int count>
 Lanes<count> square_root(const Lanes<count>& x) {
   using Numbers = typename Lanes<count>::Numbers;
-#if defined(__AVX512F__)
-  if constexpr (count == 8)
-    return Lanes<count>(std::bit_cast<Numbers>(_mm512_maskz_sqrt_pd(0xff, std::bit_cast<__m512d>(x.numbers))));
-#endif
 #if defined(__AVX__)
   if constexpr (count == 4)
     return Lanes<count>(std::bit_cast<Numbers>(_mm256_sqrt_pd(std::bit_cast<__m256d>(x.numbers))));

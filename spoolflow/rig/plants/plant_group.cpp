@@ -10,30 +10,7 @@
 namespace spoolflow::rig {
 namespace {
 
-constexpr std::size_t most_valves_at_once = 8;
-
-const PlantSteps* steps_for(PlantRegisters registers) {
-  switch (registers) {
-    case PlantRegisters::avx2:
-      return &plant_avx2;
-    case PlantRegisters::avx512:
-      return &plant_avx512;
-    case PlantRegisters::one_valve:
-      break;
-  }
-  return nullptr;
-}
-
-bool has(PlantRegisters registers) {
-  const PlantSteps* const steps = steps_for(registers);
-  if (steps == nullptr || steps->valves == 0) return false;
-#if defined(__x86_64__)
-  if (registers == PlantRegisters::avx2) return __builtin_cpu_supports("avx2") != 0;
-  return __builtin_cpu_supports("avx512dq") != 0 && __builtin_cpu_supports("avx512vl") != 0;
-#else
-  return false;
-#endif
-}
+constexpr std::size_t most_valves_at_once = 4;
 
 template <class Aggregate>
 void append_numbers(const Aggregate& aggregate, std::vector<double>& out) {
@@ -59,17 +36,11 @@ std::vector<double> numbers_side_by_side(std::span<const PlantParameters* const>
 
 }  // namespace
 
-std::vector<PlantRegisters> plant_registers() {
-  std::vector<PlantRegisters> out{PlantRegisters::one_valve};
-  for (const PlantRegisters wider : {PlantRegisters::avx2, PlantRegisters::avx512}) {
-    if (has(wider)) out.push_back(wider);
-  }
-  return out;
-}
-
-std::size_t valves_at_once(PlantRegisters registers) {
-  const PlantSteps* const steps = steps_for(registers);
-  return steps == nullptr ? 1 : steps->valves;
+std::size_t plants_at_once() {
+#if defined(__x86_64__)
+  if (plant_avx2.valves > 0 && __builtin_cpu_supports("avx2") != 0) return plant_avx2.valves;
+#endif
+  return 1;
 }
 
 bool alike(const PlantParameters& one, const PlantParameters& other) {
@@ -79,7 +50,7 @@ bool alike(const PlantParameters& one, const PlantParameters& other) {
          one.solenoid_b.hysteresis.kind == other.solenoid_b.hysteresis.kind;
 }
 
-/// As many valves as the registers hold; beyond the last one it stands there again, and nobody asks for it.
+/// As many valves as the registers hold; beyond the last valve it stands there again, and nobody asks for it.
 struct PlantGroup::Memory {
   struct Free {
     std::align_val_t alignment;
@@ -92,36 +63,20 @@ struct PlantGroup::Memory {
   std::vector<PlantOutput> spare_outputs;
 };
 
-namespace {
-
-/// For so many valves that are left: registers that they fill by half at least, else one valve alone.
-const PlantSteps* steps_for_left(std::size_t left, PlantRegisters widest) {
-  const PlantSteps* chosen = nullptr;
-  for (const PlantRegisters registers : plant_registers()) {
-    if (registers == PlantRegisters::one_valve || registers > widest) continue;
-    if (2 * left >= valves_at_once(registers)) chosen = steps_for(registers);
-    if (chosen != nullptr && left <= chosen->valves) break;
-  }
-  return chosen;
-}
-
-}  // namespace
-
-PlantGroup::PlantGroup(std::span<const PlantParameters* const> parameters, std::span<const PlantState> states,
-                       PlantRegisters widest)
+PlantGroup::PlantGroup(std::span<const PlantParameters* const> parameters, std::span<const PlantState> states)
     : parameters_(parameters.begin(), parameters.end()), states_(states.begin(), states.end()) {
   if (parameters_.size() != states_.size()) throw std::invalid_argument("a PlantGroup needs a state for each valve");
   for (const PlantParameters* const valve : parameters_) {
     if (!alike(*valve, *parameters_.front())) throw std::invalid_argument("the valves of a PlantGroup are not alike");
   }
   for (std::size_t first = 0; first < states_.size();) {
-    const std::size_t left = states_.size() - first;
-    together_.push_back(memory_of(steps_for_left(left, widest), first, left));
+    together_.push_back(memory_of(first, states_.size() - first));
     first += together_.back().count;
   }
 }
 
-PlantGroup::Memory PlantGroup::memory_of(const PlantSteps* steps, std::size_t first, std::size_t left) const {
+PlantGroup::Memory PlantGroup::memory_of(std::size_t first, std::size_t left) const {
+  const PlantSteps* const steps = left > 1 && plants_at_once() > 1 ? &plant_avx2 : nullptr;
   if (steps == nullptr) return {nullptr, first, 1, {nullptr, {std::align_val_t{1}}}, {}, {}};
   const std::align_val_t alignment{steps->alignment};
   Memory memory{steps, first, std::min(steps->valves, left), {::operator new(steps->bytes, alignment), {alignment}},

@@ -1,6 +1,6 @@
 #pragma once
 /// The plants of several valves stepped at once in SIMD registers, each exactly as alone, to the last bit. Where the
-/// processor has no such registers, one after the other.
+/// processor has no AVX2, one after the other.
 ///
 ///     PlantGroup group(parameters, states);          // plants that are alike, each at its own state
 ///     group.step(inputs, 1e-4);                      // one period of all; inputs held over it
@@ -15,24 +15,17 @@ namespace spoolflow::rig {
 
 struct PlantSteps;
 
-/// For what registers a group is made.
-enum class PlantRegisters { one_valve, avx2, avx512 };
-
-/// Those that program and processor have, the widest last.
-[[nodiscard]] std::vector<PlantRegisters> plant_registers();
-
-/// Valves in one set of registers.
-[[nodiscard]] std::size_t valves_at_once(PlantRegisters registers);
+/// Valves that one set of the processor's registers holds: 4 with AVX2, else 1.
+[[nodiscard]] std::size_t plants_at_once();
 
 /// Whether both have the same arrangement, kind of load and kinds of hysteresis, so that they may be stepped at once.
 [[nodiscard]] bool alike(const PlantParameters& one, const PlantParameters& other);
 
 class PlantGroup {
  public:
-  /// The parameters must outlive the group and be alike. As many valves as one likes; those left over by the widest
-  /// registers go into narrower ones.
-  PlantGroup(std::span<const PlantParameters* const> parameters, std::span<const PlantState> states,
-             PlantRegisters widest = plant_registers().back());
+  /// The parameters must outlive the group and be alike. As many valves as one likes; a last one that is left over is
+  /// stepped alone.
+  PlantGroup(std::span<const PlantParameters* const> parameters, std::span<const PlantState> states);
   PlantGroup(PlantGroup&&) noexcept;
   ~PlantGroup();
 
@@ -46,7 +39,7 @@ class PlantGroup {
 
  private:
   struct Memory;
-  [[nodiscard]] Memory memory_of(const PlantSteps* steps, std::size_t first, std::size_t left) const;
+  [[nodiscard]] Memory memory_of(std::size_t first, std::size_t left) const;
   std::vector<const PlantParameters*> parameters_;
   std::vector<PlantState> states_;
   std::vector<Memory> together_;

@@ -21,6 +21,5 @@ struct PlantSteps {
 };
 
 extern const PlantSteps plant_avx2;
-extern const PlantSteps plant_avx512;
 
 }  // namespace spoolflow::rig

@@ -1,13 +1,18 @@
-#include "spoolflow/calibration/numerics/definite_matrix.hpp"
+#include "spoolflow/numerics/equations/symmetric_equations.hpp"
 
 #include <cmath>
-#include <utility>
 
 #include <Eigen/Cholesky>
 
-#include "spoolflow/calibration/numerics/calibration_error.hpp"
+namespace spoolflow::numerics {
 
-namespace spoolflow::calibration {
+Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) {
+  return matrix.ldlt().solve(right);
+}
+
+Eigen::MatrixXd inverse_of_symmetric(const Eigen::MatrixXd& matrix) {
+  return matrix.ldlt().solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
+}
 
 std::optional<Eigen::MatrixXd> inverse_of_definite(const Eigen::MatrixXd& matrix) {
   constexpr double flat = 1e-12;
@@ -20,13 +25,4 @@ std::optional<Eigen::MatrixXd> inverse_of_definite(const Eigen::MatrixXd& matrix
   return scale.asDiagonal() * inverse * scale.asDiagonal();
 }
 
-Eigen::MatrixXd inverse_of_covariance(const Eigen::MatrixXd& matrix) {
-  std::optional<Eigen::MatrixXd> inverse = inverse_of_definite(matrix);
-  if (!inverse)
-    throw CalibrationError(
-        "units have a deviation that neither their tolerances nor their strokes limit; give each of [tolerances] a "
-        "value > 0");
-  return *std::move(inverse);
-}
-
-}  // namespace spoolflow::calibration
+}  // namespace spoolflow::numerics

@@ -1,8 +1,10 @@
 #pragma once
-/// Limits of JSON text, held before it is parsed.
+/// JSON text and its limits, held before it is parsed.
 #include <cstddef>
 #include <istream>
 #include <string>
+
+#include <nlohmann/json.hpp>
 
 namespace spoolflow::model {
 
@@ -14,5 +16,8 @@ inline constexpr std::size_t deepest_json = 64;                           ///< o
 
 /// Throws ModelError where the text is longer or nests deeper than the limits; text in quotes does not count.
 void require_json_limits(const std::string& text, const std::string& file);
+
+/// Within these limits; is_discarded() where it is no JSON. Compiled here alone: a parser takes seconds of a build.
+[[nodiscard]] nlohmann::ordered_json parsed_json(const std::string& text, const std::string& file);
 
 }  // namespace spoolflow::model

@@ -1,4 +1,4 @@
-#include "spoolflow/model/json_limits.hpp"
+#include "spoolflow/model/json_text.hpp"
 
 #include <fmt/format.h>
 
@@ -38,6 +38,11 @@ void require_json_limits(const std::string& text, const std::string& file) {
                                    line, deepest_json));
     }
   }
+}
+
+nlohmann::ordered_json parsed_json(const std::string& text, const std::string& file) {
+  require_json_limits(text, file);
+  return nlohmann::ordered_json::parse(text, nullptr, false);
 }
 
 }  // namespace spoolflow::model
