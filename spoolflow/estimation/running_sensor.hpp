@@ -9,26 +9,13 @@
 
 #include "spoolflow/estimation/coil_limits.hpp"
 #include "spoolflow/estimation/still_position.hpp"
+#include "spoolflow/estimation/timed_sample.hpp"
 #include "spoolflow/sensor/condensed.hpp"
 #include "spoolflow/sensor/observer.hpp"
 #include "spoolflow/sensor/whole_valve/whole_condensed.hpp"
 #include "spoolflow/sensor/whole_valve/whole_valve.hpp"
 
 namespace spoolflow::estimation {
-
-inline constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
-
-/// What is measured at one instant. NaN means not measured.
-struct TimedSample {
-  double time_s;
-  double current_A;  ///< of a whole valve that of solenoid b, or where that of a is not measured of the active one
-  double voltage_V;
-  double position_m;
-  double oil_temperature_K;
-  double current_a_A = not_measured;  ///< of a whole valve's solenoid a
-  double voltage_a_V = not_measured;
-  sensor::PortPressures<double> ports{};  ///< of a whole valve
-};
 
 /// Takes out of a sample what none of the valve's coils carries: that current or voltage is then missing. Returns the
 /// fault to report.
@@ -101,25 +88,6 @@ inline sensor::WholeValveSample<double> whole_valve_sample(const sensor::Sample<
     std::swap(out.voltage_a_V, out.voltage_b_V);
   }
   return out;
-}
-
-/// One instant of a whole valve whose coils both have their instruments. NaN means not measured; without either current
-/// the last answer is held.
-struct TimedWholeSample {
-  double time_s;
-  double current_a_A, current_b_A;
-  double voltage_a_V, voltage_b_V;
-  double position_m;
-  double oil_temperature_K;
-  sensor::PortPressures<double> ports{};
-};
-
-/// What is measured of both coils, as a running sensor takes it. A current that is missing now is not one that nobody
-/// measures: infinite, it says so.
-inline TimedSample of_both_coils(const TimedWholeSample& in) {
-  const double current_a_A = std::isnan(in.current_a_A) ? std::numeric_limits<double>::infinity() : in.current_a_A;
-  return {in.time_s,   in.current_b_A, in.voltage_b_V, in.position_m, in.oil_temperature_K,
-          current_a_A, in.voltage_a_V, in.ports};
 }
 
 /// What a running sensor remembers; trivially copyable, and so are its bytes.

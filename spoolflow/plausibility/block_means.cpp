@@ -56,7 +56,7 @@ std::vector<double> longer_blocks(std::span<const double> time_s, std::span<cons
 
 recording::Recording longer_blocks(const recording::Recording& means) {
   recording::Recording out{means.file, {}};
-  for (const Channel channel : recording::all_channels()) {
+  for (const Channel channel : recording::all_channels) {
     if (means.has(channel)) out.column(channel) = longer_blocks(means.column(Channel::time), means.column(channel));
   }
   return out;
@@ -77,7 +77,7 @@ void name_alike(recording::Recording& means) {
 recording::Recording block_means(const recording::Recording& recording, std::size_t most) {
   recording::Recording out{recording.file, {}};
   const std::size_t width = std::max<std::size_t>(recording.size() / most, 1);
-  for (const Channel channel : recording::all_channels()) {
+  for (const Channel channel : recording::all_channels) {
     if (recording.has(channel)) out.column(channel) = means_of(recording.column(channel), width);
   }
   name_alike(out);

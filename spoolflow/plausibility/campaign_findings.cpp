@@ -170,7 +170,7 @@ std::optional<Explanation> best_explanation(Trial& trial, const std::vector<Devi
     trial.rated_flow_m3_per_s = kept;
   }
   for (const Group& group : groups_of(trial)) {
-    for (const Channel channel : recording::all_channels()) {
+    for (const Channel channel : recording::all_channels) {
       if (!all_have(trial, group, channel)) continue;
       std::vector<std::vector<double>> kept;
       for (const std::size_t k : group) kept.push_back(trial.pieces[k].means.column(channel));

@@ -260,7 +260,7 @@ std::vector<BoundColumn> bind_channels(const SampleTable& table, const ReadOptio
   for (const Channel channel : options.required) add(channel, true);
   for (const Channel channel : options.optional) add(channel, false);
   if (options.required.empty() && options.optional.empty()) {
-    for (const Channel channel : all_channels()) add(channel, false);
+    for (const Channel channel : all_channels) add(channel, false);
   }
   auto time = binder.time(bound);
   if (!time) binder.missing(Channel::time);
@@ -272,7 +272,7 @@ std::string unread_channels(const SampleTable& table, const ReadOptions& options
                             const std::string& file) {
   const Binder binder(table, options, file);
   std::vector<Channel> missing;
-  for (const Channel channel : all_channels()) {
+  for (const Channel channel : all_channels) {
     if (std::ranges::count(options.optional, channel) == 0) continue;  // a required one is bound
     if (std::ranges::count(bound, channel, &BoundColumn::channel) == 0) missing.push_back(channel);
   }

@@ -12,7 +12,7 @@ namespace {
 
 std::vector<std::string> channel_names() {
   std::vector<std::string> out;
-  for (const Channel channel : all_channels()) out.emplace_back(name(channel));
+  for (const Channel channel : all_channels) out.emplace_back(name(channel));
   return out;
 }
 

@@ -260,7 +260,7 @@ Inspection inspect(const std::filesystem::path& file, const ReadOptions& options
   Steps steps;
   SampleBlock block;
   while (reader->next(block)) {
-    for (const Channel channel : all_channels()) {
+    for (const Channel channel : all_channels) {
       for (const double value : block.columns[static_cast<std::size_t>(channel)])
         followers[static_cast<std::size_t>(channel)].take(value);
     }
@@ -275,7 +275,7 @@ Inspection inspect(const std::filesystem::path& file, const ReadOptions& options
     const auto source = options.channels.sources.find(channel);
     if (source != options.channels.sources.end()) out.infinite.emplace(source->second.column, infinite);
   }
-  for (const Channel channel : all_channels()) {
+  for (const Channel channel : all_channels) {
     if (reader->has(channel)) out.channels.push_back(followers[static_cast<std::size_t>(channel)].summary(channel));
   }
   return out;

@@ -56,7 +56,7 @@ class ChannelReader final : public Reader {
   }
 
   bool next(SampleBlock& block) override {
-    for (const Channel channel : all_channels()) {
+    for (const Channel channel : all_channels) {
       if (!has(channel)) block.columns[index(channel)].clear();
     }
     // Each column of the file is read straight into the first channel that it serves.
@@ -194,7 +194,7 @@ Recording read_recording(const std::filesystem::path& file, const ReadOptions& o
   const std::unique_ptr<Reader> reader = open_reader(file, options);
   SampleBlock block;
   while (reader->next(block)) {
-    for (const Channel channel : all_channels()) {
+    for (const Channel channel : all_channels) {
       const std::vector<double>& values = block.columns[index(channel)];
       recording.column(channel).insert(recording.column(channel).end(), values.begin(), values.end());
     }

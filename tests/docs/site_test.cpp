@@ -127,7 +127,7 @@ std::set<std::string> code_words(const char* page) {
 
 TEST(Formats, NameEveryChannelAndUnit) {
   const std::set<std::string> named = code_words("docs/formats/channels.md");
-  for (const recording::Channel channel : recording::all_channels()) {
+  for (const recording::Channel channel : recording::all_channels) {
     EXPECT_EQ(named.count(std::string(recording::name(channel))), 1U) << recording::name(channel);
     for (const std::string& unit : recording::unit_names(channel)) EXPECT_EQ(named.count(unit), 1U) << unit;
   }

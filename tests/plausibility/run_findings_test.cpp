@@ -28,7 +28,7 @@ const RigBenches& sound_size_6() {
 /// The rows of some seconds of a run.
 recording::Recording clip(const recording::Recording& run, std::size_t begin, std::size_t rows) {
   recording::Recording out{run.file, {}};
-  for (const Channel channel : recording::all_channels()) {
+  for (const Channel channel : recording::all_channels) {
     if (!run.has(channel)) continue;
     const auto from = run.column(channel).begin() + static_cast<std::ptrdiff_t>(begin);
     out.column(channel).assign(from, from + static_cast<std::ptrdiff_t>(rows));

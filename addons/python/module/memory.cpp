@@ -36,7 +36,7 @@ struct GivenColumn {
 
 /// The unit beside the name of a column that a Recording has without one: shares are shares.
 std::string unit_beside(std::string_view name) {
-  const auto channels = recording::all_channels();
+  const auto channels = recording::all_channels;
   const bool share = std::any_of(channels.begin(), channels.end(), [&](recording::Channel channel) {
     return recording::dimension(channel) == units::Dimension::ratio && name == recording::name(channel);
   });
@@ -91,7 +91,7 @@ void write_recording(const ReadRecording& read, const std::filesystem::path& fil
   at_work([&](SignalCheck& check) {
     std::vector<const std::vector<double>*> columns;
     fmt::memory_buffer text;
-    for (const recording::Channel channel : recording::all_channels()) {
+    for (const recording::Channel channel : recording::all_channels) {
       if (read.recording.column(channel).empty()) continue;
       const std::string name = column_name(channel), unit = unit_beside(name);
       fmt::format_to(std::back_inserter(text), "{}{}{}{}", columns.empty() ? "" : ",", name, unit.empty() ? "" : "_",
@@ -125,7 +125,7 @@ std::shared_ptr<ReadRecording> picked(const ReadRecording& read, const SampleNum
   out->recording.file = read.recording.file;
   out->recording.resampled = read.recording.resampled;
   out->notes.rows = static_cast<std::uint64_t>(samples.size());
-  for (const recording::Channel channel : recording::all_channels()) {
+  for (const recording::Channel channel : recording::all_channels) {
     const std::vector<double>& from = read.recording.column(channel);
     std::vector<double>& to = out->recording.column(channel);
     if (from.empty()) continue;

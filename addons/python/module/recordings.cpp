@@ -60,7 +60,7 @@ std::shared_ptr<ReadRecording> read(const std::filesystem::path& file,
 py::dict columns_of(const std::shared_ptr<ReadRecording>& read) {
   py::dict out;
   const py::object keeper = py::cast(read);
-  for (const Channel channel : recording::all_channels()) {
+  for (const Channel channel : recording::all_channels) {
     const std::vector<double>& column = read->recording.column(channel);
     if (column.empty()) continue;
     out[py::str(column_name(channel))] =
@@ -121,7 +121,7 @@ recording::ReadOptions every_channel(const std::optional<std::filesystem::path>&
   recording::ReadOptions options;
   if (channels) options.channels = recording::read_channel_map(*channels);
   options.required = {Channel::time};
-  for (const Channel channel : recording::all_channels()) {
+  for (const Channel channel : recording::all_channels) {
     if (channel != Channel::time) options.optional.push_back(channel);
   }
   options.stroke_m = stroke_m;
@@ -135,7 +135,7 @@ std::shared_ptr<ReadRecording> read_whole(recording::Reader& reader, const std::
   recording::SampleBlock block;
   while (reader.next(block)) {
     check();
-    for (const Channel channel : recording::all_channels()) {
+    for (const Channel channel : recording::all_channels) {
       const std::vector<double>& rows = block.column(channel);
       std::vector<double>& column = out->recording.column(channel);
       column.insert(column.end(), rows.begin(), rows.end());
@@ -167,10 +167,10 @@ void add_recordings(py::module_& module) {
       .def("notes", [](const ReadRecording& self) { return notes_of(self); })
       .def(py::pickle(&packed, &unpacked));
   py::list channels;
-  for (const Channel channel : recording::all_channels()) channels.append(std::string(recording::name(channel)));
+  for (const Channel channel : recording::all_channels) channels.append(std::string(recording::name(channel)));
   module.attr("channels") = channels;
   py::list columns;
-  for (const Channel channel : recording::all_channels()) columns.append(column_name(channel));
+  for (const Channel channel : recording::all_channels) columns.append(column_name(channel));
   module.attr("columns") = columns;
   module.def("read_recording", &read);
   module.def("simulate", &simulate);

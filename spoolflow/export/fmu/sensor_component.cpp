@@ -85,10 +85,10 @@ class SensorComponent : public Component {
   void start(std::span<double> values) override {
     running_.reset();
     RunningSensor ahead = running_;
-    write_outputs(ahead.step(sample_of(values, 0)), values);
+    write_outputs(ahead.step(timed_sample(values, 0, whole)), values);
   }
   void sample(std::span<double> values, std::int64_t number) override {
-    write_outputs(running_.step(sample_of(values, number)), values);
+    write_outputs(running_.step(timed_sample(values, number, whole)), values);
   }
   [[nodiscard]] std::span<char> memory() override {
     return {reinterpret_cast<char*>(&running_.state()), sizeof(estimation::RunningState)};
@@ -102,32 +102,6 @@ class SensorComponent : public Component {
   static constexpr bool whole = of_both<Parameters>;
   static constexpr std::size_t first_tunable = whole ? whole_first_tunable : sensor_first_tunable;
 
-  static estimation::TimedSample sample_of(std::span<const double> values, std::int64_t number) {
-    const double nothing = estimation::not_measured;
-    const bool use_voltage = values[sensor_use_voltage] != 0;
-    const double time_s = static_cast<double>(number) * values[sensor_sample_step];
-    const double voltage_V = use_voltage ? values[sensor_voltage] : nothing;
-    const double oil_temperature_K = values[sensor_use_oil_temperature] != 0 ? values[sensor_oil_temperature] : nothing;
-    if constexpr (whole) {
-      const auto pressure_Pa = [&](std::size_t port) {
-        return values[whole_use_port_pressures] != 0 ? values[port] : nothing;
-      };
-      return estimation::of_both_coils({.time_s = time_s,
-                                        .current_a_A = values[whole_current_a],
-                                        .current_b_A = values[sensor_current],
-                                        .voltage_a_V = use_voltage ? values[whole_voltage_a] : nothing,
-                                        .voltage_b_V = voltage_V,
-                                        .position_m = values[sensor_position],
-                                        .oil_temperature_K = oil_temperature_K,
-                                        .ports = {pressure_Pa(whole_pressure_p), pressure_Pa(whole_pressure_a),
-                                                  pressure_Pa(whole_pressure_b), pressure_Pa(whole_pressure_t)}});
-    }
-    return {.time_s = time_s,
-            .current_A = values[sensor_current],
-            .voltage_V = voltage_V,
-            .position_m = values[sensor_position],
-            .oil_temperature_K = oil_temperature_K};
-  }
   static void write_outputs(const sensor::Estimate<double>& estimate, std::span<double> values) {
     values[sensor_flow] = estimate.flow_m3_per_s;
     values[sensor_flow_lower] = estimate.flow_lower_m3_per_s;

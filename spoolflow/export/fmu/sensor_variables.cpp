@@ -66,17 +66,6 @@ std::vector<TunableNumber> found_in(BothDirections<Parameters>& parameters) {
   return found;
 }
 
-Variable flag(const char* name, const char* description, bool start = true) {
-  return {.name = name,
-          .description = description,
-          .causality = Causality::parameter,
-          .variability = Variability::fixed,
-          .type = Type::boolean,
-          .start = start ? 1.0 : 0.0,
-          .lowest = 0,
-          .highest = 1};
-}
-
 Variable tunable_parameter(const TunableNumber& number) {
   return {.name = number.name,
           .description = number.about.meaning,
@@ -89,20 +78,42 @@ Variable tunable_parameter(const TunableNumber& number) {
           .highest = number.about.limits.highest};
 }
 
-/// What a whole valve has beside one direction's inputs.
-std::vector<Variable> whole_valve_inputs() {
-  const auto pressure = [](const char* name, const char* port) {
-    return input(name, (std::string("pressure at port ") + port + "; NaN: not measured").c_str(), "Pa", "bar", 0, 5e6);
-  };
-  return {input("current_a", "current of the coil that opens P to A, mean since the sample before; NaN: missing", "A",
-                "", 0, 1),
-          input("voltage_a", "voltage of the coil that opens P to A, mean since the sample before; NaN: not measured",
-                "V", "", 0, 10),
-          pressure("pressure_p", "P"),
-          pressure("pressure_a", "A"),
-          pressure("pressure_b", "B"),
-          pressure("pressure_t", "T"),
-          flag("use_port_pressures", "whether the pressures at all four ports are measured", false)};
+std::vector<Variable> sensor_outputs(bool whole, double flow) {
+  return {
+      output("flow", whole ? "flow rate, P to B > 0, P to A < 0" : "flow rate", "m3/s", "L/min", flow),
+      output("flow_lower", "lower end of the 95 % band of the flow rate", "m3/s", "L/min", flow),
+      output("flow_upper", "upper end of the 95 % band of the flow rate", "m3/s", "L/min", flow),
+      output("pressure_difference", "pressure difference over the metering edge", "Pa", "bar", 5e6),
+      output("magnetic_force", whole ? "magnetic force, > 0 opens P to B" : "magnetic force, opening > 0", "N", "", 50),
+      output("spring_force", whole ? "spring force, > 0 closes P to B" : "spring force, closing > 0", "N", "", 50),
+      output("flow_force", whole ? "steady flow force, > 0 closes P to B" : "steady flow force, closing > 0", "N", "",
+             50),
+      output("friction_force", "friction of spool and armature, sign of the velocity", "N", "", 5),
+      {.name = "status",
+       .description = "status bits, 0 when all is well; see the documentation",
+       .causality = Causality::output,
+       .variability = Variability::discrete,
+       .type = Type::integer},
+      {.name = "fault",
+       .description = "an input or the model cannot be trusted: a bit of status from 65536 on is set",
+       .causality = Causality::output,
+       .variability = Variability::discrete,
+       .type = Type::boolean}};
+}
+
+std::vector<Variable> sensor_settings() {
+  return {{.name = "sample_step",
+           .description = "time between samples of the sensor, whatever the communication step",
+           .causality = Causality::parameter,
+           .variability = Variability::fixed,
+           .unit = "s",
+           .display_unit = "ms",
+           .start = 1e-3,
+           .lowest = 5e-5,
+           .highest = 5e-3,
+           .nominal = 1e-3},
+          flag("use_voltage", "whether the coil voltage is measured"),
+          flag("use_oil_temperature", "whether the oil temperature is measured")};
 }
 
 }  // namespace
@@ -124,57 +135,13 @@ std::vector<TunableNumber> tunable_numbers(BothDirections<sensor::ObserverParame
 }
 
 std::vector<Variable> sensor_variables(const SensorScale& scale, const std::vector<TunableNumber>& tunable) {
-  const double flow = scale.rated_flow_m3_per_s;
-  const bool whole = scale.whole;
   std::vector<Variable> all{
-      {.name = "time", .description = "simulation time", .causality = Causality::independent, .unit = "s"},
-      input(whole ? "current_b" : "current",
-            whole ? "current of the coil that opens P to B, mean since the sample before; NaN: missing"
-                  : "coil current, mean since the sample before; NaN: missing",
-            "A", "", 0, 1),
-      input(whole ? "voltage_b" : "voltage",
-            whole ? "voltage of the coil that opens P to B, mean since the sample before; NaN: not measured"
-                  : "coil voltage, mean since the sample before; NaN: not measured",
-            "V", "", 0, 10),
-      input("position",
-            whole ? "spool position from the centre, > 0 opens P to B, < 0 opens P to A; NaN: missing"
-                  : "spool position, 0 closed, > 0 opens P to B; NaN: missing",
-            "m", "mm", 0, scale.stroke_m),
-      input("oil_temperature", "temperature of the oil; NaN: the last one is held", "K", "degC", 323.15, 300),
-      output("flow", whole ? "flow rate, P to B > 0, P to A < 0" : "flow rate", "m3/s", "L/min", flow),
-      output("flow_lower", "lower end of the 95 % band of the flow rate", "m3/s", "L/min", flow),
-      output("flow_upper", "upper end of the 95 % band of the flow rate", "m3/s", "L/min", flow),
-      output("pressure_difference", "pressure difference over the metering edge", "Pa", "bar", 5e6),
-      output("magnetic_force", whole ? "magnetic force, > 0 opens P to B" : "magnetic force, opening > 0", "N", "", 50),
-      output("spring_force", whole ? "spring force, > 0 closes P to B" : "spring force, closing > 0", "N", "", 50),
-      output("flow_force", whole ? "steady flow force, > 0 closes P to B" : "steady flow force, closing > 0", "N", "",
-             50),
-      output("friction_force", "friction of spool and armature, sign of the velocity", "N", "", 5),
-      {.name = "status",
-       .description = "status bits, 0 when all is well; see the documentation",
-       .causality = Causality::output,
-       .variability = Variability::discrete,
-       .type = Type::integer},
-      {.name = "fault",
-       .description = "an input or the model cannot be trusted: a bit of status from 65536 on is set",
-       .causality = Causality::output,
-       .variability = Variability::discrete,
-       .type = Type::boolean},
-      {.name = "sample_step",
-       .description = "time between samples of the sensor, whatever the communication step",
-       .causality = Causality::parameter,
-       .variability = Variability::fixed,
-       .unit = "s",
-       .display_unit = "ms",
-       .start = 1e-3,
-       .lowest = 5e-5,
-       .highest = 5e-3,
-       .nominal = 1e-3},
-      flag("use_voltage", "whether the coil voltage is measured"),
-      flag("use_oil_temperature", "whether the oil temperature is measured")};
-  if (whole) {
-    for (const Variable& each : whole_valve_inputs()) all.push_back(each);
-  }
+      {.name = "time", .description = "simulation time", .causality = Causality::independent, .unit = "s"}};
+  const auto add = [&](const std::vector<Variable>& more) { all.insert(all.end(), more.begin(), more.end()); };
+  add(sensor_inputs(scale.whole, scale.stroke_m));
+  add(sensor_outputs(scale.whole, scale.rated_flow_m3_per_s));
+  add(sensor_settings());
+  if (scale.whole) add(whole_valve_inputs());
   for (const TunableNumber& number : tunable) all.push_back(tunable_parameter(number));
   return all;
 }

@@ -56,7 +56,7 @@ std::optional<ChannelHeader> similar_header(std::string_view stem, const std::st
     return unit && (unit->dimension == dimension(channel) || (channel == Channel::position && unit->name == "percent"));
   };
   for (const bool whole : {true, false}) {
-    for (const Channel channel : all_channels()) {
+    for (const Channel channel : all_channels) {
       const auto rest = channel == Channel::test ? std::nullopt : behind_name(stem, channel);
       if (!rest || rest->empty() != whole) continue;
       if (whole && suits(channel, units::unit_named(stated)) && !ends_in_unit(stem, channel))
@@ -175,7 +175,7 @@ std::optional<ChannelHeader> channel_header(const FileColumn& column) {
     if (unit.empty() && *channel == Channel::test) unit.assign(1, '1');
     return ChannelHeader{*channel, unit};
   }
-  for (const Channel channel : all_channels()) {
+  for (const Channel channel : all_channels) {
     if (!stem.starts_with(name(channel))) continue;
     const std::string_view rest = stem.substr(name(channel).size());
     if (rest.size() < 2 || rest.front() != '_') continue;
