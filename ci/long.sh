@@ -1,12 +1,13 @@
 #!/bin/sh
-# ci/long.sh [SECONDS]: what takes too long for every day, over what ./test has built: clang-tidy, the rig and calibration under
+# ci/long.sh [SECONDS [UNITS]]: what takes too long for every day, over what ./test has built: clang-tidy, the rig and calibration under
 # sanitizers, RISC-V, `live` killed at fifty instants, its parsers fuzzed for SECONDS each (an hour where none are given), fleets
-# whose parts are killed, 500 valves at 1 kHz for as long, the page of 200, the playground's build, and 200 units of a type.
+# whose parts are killed, 500 valves at 1 kHz for as long, the page of 200, the playground's build, and UNITS of a type
+# (200 where none are given).
 # Prints figures and, at the end, its time; the exit status covers clang-tidy, sanitizers, kills, fleets, fuzzing, the page, the
 # playground and the type's bands.
 set -eu
 cd "$(dirname "$(readlink -f "$0")")/.."
-seconds=${1:-3600}
+seconds=${1:-3600} units=${2:-200}
 status=0
 begin=$(date +%s)
 part() { echo "== $((($(date +%s) - begin) / 60)) min: $1"; }
@@ -36,7 +37,7 @@ tests/web/live_for_long.sh build/release/tests/web/page build/release/bench/live
   "$seconds" || status=1
 part "the playground"
 addons/playground/wasm/build.sh build/playground_page || status=1
-part "200 units of a type"
-ci/series.sh || status=1
+part "$units units of a type"
+ci/series.sh "$units" || status=1
 echo "== $((($(date +%s) - begin) / 60)) minutes, status $status"
 exit $status
