@@ -148,6 +148,13 @@ void say_what_could_be_it(Inspection& out, const Proposal& proposal) {
   }
 }
 
+/// Of the pressures of all four ports, those that are before and behind the edge of a bench with one direction.
+void say_what_a_bench_calls_them(Inspection& out, const Proposal& proposal) {
+  if (!proposal.all_ports) return;
+  out.remarks.emplace(Channel::pressure_p, "of a bench that opens P to B alone: pressure_upstream");
+  out.remarks.emplace(Channel::pressure_b, "of a bench that opens P to B alone: pressure_downstream");
+}
+
 /// What every sensor needs.
 void find_missing(Inspection& out) {
   const auto lacks = [&](Channel channel) { return !out.proposal.sources.contains(channel); };
@@ -242,6 +249,7 @@ Inspection inspect(const std::filesystem::path& file, const ReadOptions& options
       inspected_clocks(options.channels.sources.empty() ? out.proposal : options.channels, open_table, file.string());
   if (options.channels.sources.empty()) {
     say_what_could_be_it(out, proposal);
+    say_what_a_bench_calls_them(out, proposal);
     look_at_columns(out, std::move(columns));
     find_missing(out);
     if (even) std::erase(out.missing, Channel::time);

@@ -22,13 +22,14 @@ namespace {
 /// accents are left out. The longer match wins.
 struct Words {
   Channel channel;
-  std::array<std::string_view, 20> words;
+  std::array<std::string_view, 26> words;
 };
 constexpr std::array<Words, 19> vocabulary{{
     {Channel::time, {"time", "t", "zeit", "timestamp", "seconds", "temps", "tempo", "tiempo", "jikan", "zeitstempel"}},
     {Channel::current,
      {"current", "i", "strom", "isol", "icoil", "coilcurrent", "courant", "corrente", "corriente", "denryu",
-      "spulenstrom", "magnetstrom", "solenoidcurrent", "courantbobine", "correntebobina"}},
+      "spulenstrom", "magnetstrom", "ventilstrom", "solenoidcurrent", "valvecurrent", "courantbobine",
+      "correntebobina"}},
     {Channel::current_set,
      {"currentset", "iset", "icmd", "sollstrom", "isoll", "currentcommand", "consignecourant", "stromsoll"}},
     {Channel::voltage,
@@ -39,9 +40,9 @@ constexpr std::array<Words, 19> vocabulary{{
     {Channel::voltage_a, {"voltagea", "ua", "va", "spannunga", "usola", "ucoila", "coilvoltagea", "tensiona"}},
     {Channel::voltage_b, {"voltageb", "ub", "vb", "spannungb", "usolb", "ucoilb", "coilvoltageb", "tensionb"}},
     {Channel::position,
-     {"position", "x",           "lvdt",        "weg",       "stroke",      "spool",   "spoolposition",
-      "pos",      "xist",        "posizione",   "posicion",  "corsa",       "carrera", "course",
-      "ichi",     "deplacement", "spostamento", "kolbenweg", "schieberweg", "xspool"}},
+     {"position",    "x",         "lvdt",        "weg",    "stroke",   "spool",  "spoolposition", "pos",
+      "xist",        "posizione", "posicion",    "corsa",  "carrera",  "course", "ichi",          "deplacement",
+      "spostamento", "kolbenweg", "schieberweg", "xspool", "spoolpos", "hub",    "ventilhub"}},
     {Channel::position_set,
      {"positionset", "xset", "xsoll", "xcmd", "setpoint", "sollwert", "positioncommand", "xs", "consigne",
       "consigneposition", "riferimento", "consigna", "wegsoll"}},
@@ -56,12 +57,14 @@ constexpr std::array<Words, 19> vocabulary{{
      {"pressuredownstream", "p2", "pb", "pressureb", "pdownstream", "pd", "pressionaval", "pressionevalle",
       "presionaguasabajo", "outletpressure", "drucknach"}},
     {Channel::pressure_difference,
-     {"pressuredifference", "dp", "deltap", "pdiff", "druckdifferenz", "differentialpressure", "pressuredrop",
-      "differencedepression", "pertedecharge", "pressionedifferenziale", "presiondiferencial", "saatsu"}},
+     {"pressuredifference", "dp", "deltap", "pdiff", "druckdifferenz", "differenzdruck", "differentialpressure",
+      "pressuredrop", "differencedepression", "pertedecharge", "pressionedifferenziale", "presiondiferencial",
+      "saatsu"}},
     {Channel::pressure_difference_set, {"pressuredifferenceset", "dpset", "dpsoll"}},
     {Channel::oil_temperature,
-     {"oiltemperature", "temperature", "temp", "toil", "temperatur", "oeltemperatur", "t", "oiltemp",
-      "temperaturehuile", "temperaturaaceite", "temperaturaolio", "temperatura", "yuon", "thuile", "tolio"}},
+     {"oiltemperature", "temperature", "temp", "toil", "temperatur", "oeltemperatur", "t", "oiltemp", "oeltemp", "toel",
+      "thetaoil", "thetaoel", "temperaturehuile", "temperaturaaceite", "temperaturaolio", "temperatura", "yuon",
+      "thuile", "tolio"}},
     {Channel::flow,
      {"flow", "q", "flowrate", "volumenstrom", "qmeas", "debit", "portata", "caudal", "ryuryo", "durchfluss"}},
     {Channel::flow_reference,
@@ -69,13 +72,14 @@ constexpr std::array<Words, 19> vocabulary{{
       "caudalreferencia"}},
 }};
 
-/// Letters with accents as they are typed without them.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 22> plain_letters{{
-    {"\xC3\xA4", "ae"}, {"\xC3\xB6", "oe"}, {"\xC3\xBC", "ue"}, {"\xC3\x84", "ae"}, {"\xC3\x96", "oe"},
-    {"\xC3\x9C", "ue"}, {"\xC3\x9F", "ss"}, {"\xC3\xA9", "e"},  {"\xC3\xA8", "e"},  {"\xC3\xAA", "e"},
-    {"\xC3\x89", "e"},  {"\xC3\xA0", "a"},  {"\xC3\xA1", "a"},  {"\xC3\xA2", "a"},  {"\xC3\xAD", "i"},
-    {"\xC3\xB3", "o"},  {"\xC3\xBA", "u"},  {"\xC3\xB1", "n"},  {"\xC3\xA7", "c"},  {"\xC3\xB2", "o"},
-    {"\xC3\xB9", "u"},  {"\xC3\xAC", "i"},
+/// Letters with accents, and Greek ones of formulas, as they are typed without them.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 26> plain_letters{{
+    {"\xC3\xA4", "ae"},    {"\xC3\xB6", "oe"}, {"\xC3\xBC", "ue"}, {"\xC3\x84", "ae"},    {"\xC3\x96", "oe"},
+    {"\xC3\x9C", "ue"},    {"\xC3\x9F", "ss"}, {"\xC3\xA9", "e"},  {"\xC3\xA8", "e"},     {"\xC3\xAA", "e"},
+    {"\xC3\x89", "e"},     {"\xC3\xA0", "a"},  {"\xC3\xA1", "a"},  {"\xC3\xA2", "a"},     {"\xC3\xAD", "i"},
+    {"\xC3\xB3", "o"},     {"\xC3\xBA", "u"},  {"\xC3\xB1", "n"},  {"\xC3\xA7", "c"},     {"\xC3\xB2", "o"},
+    {"\xC3\xB9", "u"},     {"\xC3\xAC", "i"},  {"\xCE\x94", "d"},  {"\xE2\x88\x86", "d"}, {"\xCF\x91", "theta"},
+    {"\xCE\xB8", "theta"},
 }};
 
 /// A column's name taken apart: "I_sol [mA]" is "isol" with unit "mA".
@@ -89,10 +93,10 @@ std::string letters_of(std::string_view text) {
   std::string out;
   for (std::size_t at = 0; at < text.size(); ++at) {
     const auto accent =
-        std::ranges::find(plain_letters, text.substr(at, 2), &std::pair<std::string_view, std::string_view>::first);
+        std::ranges::find_if(plain_letters, [&](const auto& each) { return text.substr(at).starts_with(each.first); });
     if (accent != plain_letters.end()) {
       out += accent->second;
-      ++at;
+      at += accent->first.size() - 1;
     } else if (std::isalnum(static_cast<unsigned char>(text[at])) != 0) {
       out += static_cast<char>(std::tolower(static_cast<unsigned char>(text[at])));
     }
@@ -163,6 +167,39 @@ bool may_have(Channel channel, const std::string& unit_name) {
          (unit->dimension == units::Dimension::ratio && wanted == units::Dimension::length);
 }
 
+/// The port of a valve whose pressure a word calls: "pA", "Pressure T", "Druck P".
+std::optional<Channel> port_pressure(std::string_view word) {
+  constexpr std::array<std::string_view, 6> pressures{"p", "pressure", "druck", "pression", "pressione", "presion"};
+  constexpr std::array<std::pair<char, Channel>, 4> ports{
+      {{'p', Channel::pressure_p}, {'a', Channel::pressure_a}, {'b', Channel::pressure_b}, {'t', Channel::pressure_t}}};
+  if (word.empty() || std::ranges::count(pressures, word.substr(0, word.size() - 1)) == 0) return std::nullopt;
+  const auto port = std::ranges::find(ports, word.back(), &std::pair<char, Channel>::first);
+  return port == ports.end() ? std::nullopt : std::optional(port->second);
+}
+
+/// Whether the pressures of all four ports have a column. Else those at P and B are before and behind one edge.
+bool has_all_ports(const FileContents& contents) {
+  std::set<Channel> found;
+  for (std::size_t k = 0; k < contents.columns.size(); ++k) {
+    const NameParts parts = parts_of(contents.leaves[k], contents.units[k]);
+    const auto port = port_pressure(parts.word);
+    if (port && may_have(*port, parts.unit)) found.insert(*port);
+  }
+  return found.size() == 4;
+}
+
+/// The channel that a column is called by.
+std::optional<Channel> channel_called(const NameParts& parts, bool all_ports) {
+  if (const auto port = port_pressure(parts.word); all_ports && port && may_have(*port, parts.unit)) return port;
+  for (const Words& entry : vocabulary) {
+    if (!names_it(entry, parts.word) || !may_have(entry.channel, parts.unit)) continue;
+    if (parts.word == "t" && parts.unit.empty() && parts.capital != (entry.channel == Channel::oil_temperature))
+      continue;
+    return entry.channel;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Proposal propose_channels(const FileContents& contents, const std::vector<bool>& numberless) {
@@ -188,18 +225,13 @@ Proposal propose_channels(const FileContents& contents, const std::vector<bool>&
         propose(headers[k]->channel, contents.columns[k], headers[k]->unit);
     }
   }
+  out.all_ports = has_all_ports(contents);
   for (const bool with_unit : {true, false}) {
     found.clear();
     for (std::size_t k = 0; k < own.size(); ++k) {
       const NameParts parts = parts_of(contents.leaves[k], contents.units[k]);
       if (own[k] || parts.unit.empty() == with_unit) continue;
-      for (const Words& entry : vocabulary) {
-        if (!names_it(entry, parts.word) || !may_have(entry.channel, parts.unit)) continue;
-        if (parts.word == "t" && parts.unit.empty() && parts.capital != (entry.channel == Channel::oil_temperature))
-          continue;
-        propose(entry.channel, contents.columns[k], parts.unit);
-        break;
-      }
+      if (const auto channel = channel_called(parts, out.all_ports)) propose(*channel, contents.columns[k], parts.unit);
     }
   }
   return out;

@@ -13,6 +13,9 @@ struct Proposal {
   ChannelMap map;
   /// Columns that could be a channel of the map as well as the one that is proposed, in the file's order.
   std::map<Channel, std::vector<std::string>> as_well{};
+  /// The pressures of all four ports are named by their port ("pA"). Without one of them, those at P and B are taken
+  /// for pressure_upstream and pressure_downstream.
+  bool all_ports = false;
 };
 
 /// At most one column a channel; columns whose meaning or unit is unknown are left out. Where a column names no

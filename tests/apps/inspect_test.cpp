@@ -149,6 +149,28 @@ TEST_F(Inspect, KnowsChannelsInAGroupWhoseUnitStandsBesideTheName) {
   EXPECT_THAT(output, Not(HasSubstr("current_a")));
 }
 
+TEST_F(Inspect, TakesPressuresOfAllFourPortsForThoseAndOfTwoForBothSidesOfAnEdge) {
+  write("ports.csv",
+        "t [s];x [mm];iA [A];iB [A];pP [bar];pA [bar];pB [bar];pT [bar]\n0;0;0;1;90;9;60;2\n1;1;0;1;91;9;61;2\n");
+  const std::string four = run("inspect ports.csv").output;
+  EXPECT_THAT(four,
+              HasSubstr("pressure_p = { column = \"pP [bar]\", unit = \"bar\" }  # of a bench that opens P to B"));
+  EXPECT_THAT(four, HasSubstr("pressure_a = { column = \"pA [bar]\", unit = \"bar\" }\n"));
+  EXPECT_THAT(four, HasSubstr("pressure_t = { column = \"pT [bar]\", unit = \"bar\" }\n"));
+  write("edge.csv", "t [s];x [mm];i [A];pP [bar];pB [bar]\n0;0;1;90;60\n1;1;1;91;61\n");
+  EXPECT_THAT(run("inspect edge.csv").output,
+              HasSubstr("pressure_downstream = { column = \"pB [bar]\", unit = \"bar\" }\n"));
+}
+
+TEST_F(Inspect, KnowsTheLettersOfFormulasAndTheWordsOfGermanBenches) {
+  write("bench.csv",
+        "Zeit [s];spool_pos [mm];Ventilstrom [A];\xCE\x94p [bar];\xCF\x91_\xC3\x96l [\xC2\xB0"
+        "C]\n0;0;1;60;50\n1;1;1;60;50\n");
+  const std::string said = run("inspect bench.csv").output;
+  for (const char* channel : {"position", "current", "pressure_difference", "oil_temperature"})
+    EXPECT_THAT(said, HasSubstr(std::string("\n") + channel + " = { column = "));
+}
+
 TEST_F(Inspect, SaysWhichColumnCouldBeAChannelAsWell) {
   write("two.csv", "t [s];strom [A];i [A];x [mm]\n0;1;2;1\n0.001;1;2;1\n0.002;1;2;1\n");
   const std::string output = run("inspect two.csv").output;
