@@ -133,8 +133,11 @@ class Guesser {
   }
 
  private:
+  /// A position may be in volts: the raw signal of its sensor.
   [[nodiscard]] bool free(std::size_t column, units::Dimension dimension) const {
-    return !used_[column] && stated_as(columns_[column], dimension);
+    return !used_[column] &&
+           (stated_as(columns_[column], dimension) ||
+            (dimension == units::Dimension::length && stated_as(columns_[column], units::Dimension::voltage)));
   }
   [[nodiscard]] std::optional<std::size_t> column_of(Channel channel) const {
     const auto found = known_.find(channel);
@@ -157,6 +160,16 @@ class Guesser {
       out = k;
     }
     return out;
+  }
+
+  /// The only column that states a unit of that quantity.
+  void take_only(Channel wanted, const char* why) {
+    if (column_of(wanted)) return;
+    const auto only = only_one([&](std::size_t k) {
+      const SurveyedColumn& column = columns_[k];
+      return !used_[k] && column.samples > 0 && !column.unit.empty() && stated_as(column, dimension(wanted));
+    });
+    if (only) choose(wanted, *only, why);
   }
 
   void time() {
@@ -184,11 +197,13 @@ class Guesser {
   }
 
   void current_and_position() {
-    const auto current = column_of(Channel::current), position = column_of(Channel::position);
     if (column_of(Channel::current_a) || column_of(Channel::current_b)) return;
+    take_only(Channel::current, "no other column is a current");
+    const auto current = column_of(Channel::current), position = column_of(Channel::position);
     if (current && !position) beside(*current, Channel::position, units::Dimension::length, 1);
     if (position && !current) beside(*position, Channel::current, units::Dimension::current, -1);
     if (!current && !position) pair();
+    take_only(Channel::position, "no other column is a length");
   }
 
   /// Two columns that go along, one after the other: what comes first is the current, and of several that come first

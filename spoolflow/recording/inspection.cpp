@@ -195,7 +195,7 @@ void look_at_columns(Inspection& out, std::vector<SurveyedColumn> columns) {
   for (const auto& [channel, guess] : guesses) {
     const SurveyedColumn& column = columns[guess.column];
     const auto unit = units::unit_named(column.unit);
-    const bool fits = unit && unit->dimension == dimension(channel);
+    const bool fits = unit && (unit->dimension == dimension(channel) || unit->dimension == units::Dimension::voltage);
     out.proposal.sources.try_emplace(channel, ChannelSource{column.name, fits ? column.unit : "", 1.0, 0.0, {}});
     out.remarks.emplace(channel, "a guess, check it: " + guess.why);
     known.emplace(channel, guess.column);

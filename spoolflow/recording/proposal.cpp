@@ -104,7 +104,7 @@ std::string letters_of(std::string_view text) {
   return out;
 }
 
-/// Less what numbers the inputs of a recorder: "ch3: Position" and "Current - Plot 0".
+/// Less what numbers the inputs of a recorder: "ch3: Position", "B: Position" and "Current - Plot 0".
 std::string without_inputs(std::string_view name) {
   constexpr std::array<std::string_view, 6> inputs{"ch", "channel", "kanal", "plot", "ai", "trace"};
   constexpr std::string_view gaps = " :;,-";
@@ -115,7 +115,8 @@ std::string without_inputs(std::string_view name) {
     const std::string word = letters_of(name.substr(at, end - at));
     const std::string input = word.substr(0, word.find_first_of("0123456789"));
     const bool number = !word.empty() && input.empty() && word.find_first_not_of("0123456789") == std::string::npos;
-    const bool is_input = std::ranges::count(inputs, input) > 0;
+    const bool lettered = at == 0 && word.size() == 1 && end < name.size() && name[end] == ':';
+    const bool is_input = lettered || std::ranges::count(inputs, input) > 0;
     if (!is_input && !(number && after_input)) out += std::string(name.substr(at, end - at)) + " ";
     if (!word.empty()) after_input = is_input;
     at = end + 1;

@@ -92,6 +92,22 @@ TEST_F(Inspect, GuessesFromTheNumbersWhereNamesSayNothing) {
   EXPECT_THAT(output, HasSubstr("Columns that are not used: A5"));
 }
 
+TEST_F(Inspect, OfAScopeGuessesFromUnitsAndFromWhatFollowsTheCurrent) {
+  std::string lines = "Time,Channel A,Channel B,Channel C\n(ms),(A),(V),(V)\n\n";
+  const auto current_A = [](int k) { return 1.2 + 0.5 * std::sin(0.004 * k) + 0.2 * std::sin(0.031 * k); };
+  for (int k = 0; k < 3000; ++k)
+    lines += fmt::format("{},{:.4f},{:.3f},{:.4f}\n", k, current_A(k), 3.4 * current_A(k) + 0.3 * std::cos(0.031 * k),
+                         5 * current_A(k - 12));
+  write("scope.csv", lines);
+  const std::string output = run("inspect scope.csv").output;
+  EXPECT_THAT(output, HasSubstr("current = { column = \"Channel A\", unit = \"A\" }  # a guess, check it: no other"));
+  EXPECT_THAT(output, HasSubstr("voltage = { column = \"Channel B\", unit = \"V\" }  # a guess"));
+  EXPECT_THAT(output,
+              HasSubstr("position = { column = \"Channel C\", unit = \"V\", scale = 1.0, offset = 0.0, to = \"?\" }"));
+  write("hand.csv", "t [ms];A: Strom [A];B: Weg [mm]\n0;0;0\n1;1;1\n");
+  EXPECT_THAT(run("inspect hand.csv").output, HasSubstr("position = { column = \"B: Weg [mm]\", unit = \"mm\" }\n"));
+}
+
 TEST_F(Inspect, OfAPipeSaysWhatItSaysOfTheFile) {
   write("lab.csv", nameless_run());
   const std::string of_file = run("inspect lab.csv").output;
