@@ -75,6 +75,13 @@ function(spoolflow_light target)
   endif()
 endfunction()
 
+# spoolflow_text(TARGET): it writes a text once; -O1 takes a third longer to build.
+function(spoolflow_text target)
+  if(NOT SPOOLFLOW_SANITIZE)
+    target_compile_options(${target} PRIVATE -Og)
+  endif()
+endfunction()
+
 # spoolflow_fast(TARGET): its time goes into calculations.
 function(spoolflow_fast target)
   if(NOT SPOOLFLOW_SANITIZE AND NOT CMAKE_BUILD_TYPE STREQUAL Debug)
@@ -90,13 +97,13 @@ function(spoolflow_from_plain_build target)
   target_link_libraries(${target} INTERFACE spoolflow_settings ${ARGN})
 endfunction()
 
-# spoolflow_folder(NAME [LIGHT|FAST] [JOINED group] [LINKS target…] [PRIVATE_LINKS target…] [APART file…])
+# spoolflow_folder(NAME [TEXT|LIGHT|FAST] [JOINED group] [LINKS target…] [PRIVATE_LINKS target…] [APART file…])
 # All *.cpp of the folder, but those that are compiled apart, become the library spoolflow_NAME, in addons/ addons_NAME; a folder
-# without *.cpp is header-only. A part has its folder's name before its own: rig/plant becomes spoolflow_rig_plant. LIGHT and
-# FAST: see spoolflow_light and spoolflow_fast. JOINED: the library of the group compiles them (spoolflow_joined), and the
+# without *.cpp is header-only. A part has its folder's name before its own: rig/plant becomes spoolflow_rig_plant. TEXT, LIGHT and
+# FAST: see spoolflow_text and the like. JOINED: the library of the group compiles them (spoolflow_joined), and the
 # folder's own target says what the folder links.
 function(spoolflow_folder name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "LIGHT;FAST" "JOINED" "LINKS;PRIVATE_LINKS;APART")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "TEXT;LIGHT;FAST" "JOINED" "LINKS;PRIVATE_LINKS;APART")
   set(prefix spoolflow)
   if(CMAKE_CURRENT_SOURCE_DIR MATCHES "^${PROJECT_SOURCE_DIR}/addons/")
     set(prefix addons)
@@ -121,7 +128,9 @@ function(spoolflow_folder name)
   elseif(sources)
     add_library(${target} STATIC ${sources})
     target_link_libraries(${target} PUBLIC spoolflow_settings ${arg_LINKS} PRIVATE spoolflow_warnings ${arg_PRIVATE_LINKS})
-    if(arg_LIGHT)
+    if(arg_TEXT)
+      spoolflow_text(${target})
+    elseif(arg_LIGHT)
       spoolflow_light(${target})
     elseif(arg_FAST)
       spoolflow_fast(${target})
@@ -138,11 +147,11 @@ function(spoolflow_folder name)
   endif()
 endfunction()
 
-# spoolflow_joined(GROUP [LIGHT|FAST] [HARDENED] [READS_NOTHING] [OBJECTS count]): the library joined_GROUP of all folders that
+# spoolflow_joined(GROUP [TEXT|LIGHT|FAST] [HARDENED] [READS_NOTHING] [OBJECTS count]): the library joined_GROUP of all folders that
 # are JOINED to the group, behind them all. Folders that see the same headers take half the time to compile together. OBJECTS: in
 # so many pieces. READS_NOTHING: no byte of a file or of the network, so that ./test takes it without sanitizers; ci/long.sh does not.
 function(spoolflow_joined group)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "LIGHT;FAST;HARDENED;READS_NOTHING" "OBJECTS" "")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "TEXT;LIGHT;FAST;HARDENED;READS_NOTHING" "OBJECTS" "")
   foreach(list IN ITEMS folders sources links private_links)
     get_property(${list} GLOBAL PROPERTY joined_${group}_${list})
   endforeach()
@@ -157,7 +166,9 @@ function(spoolflow_joined group)
   endif()
   add_library(${target} STATIC ${sources})
   target_link_libraries(${target} PUBLIC spoolflow_settings ${links} PRIVATE spoolflow_warnings ${private_links})
-  if(arg_LIGHT)
+  if(arg_TEXT)
+    spoolflow_text(${target})
+  elseif(arg_LIGHT)
     spoolflow_light(${target})
   elseif(arg_FAST)
     spoolflow_fast(${target})
