@@ -49,6 +49,7 @@ static_assert(std::is_trivially_copyable_v<DirectionState>);
 struct DirectionReference {
   const sensor::ObserverParameters<double>* valve = nullptr;
   double stroke_m = 0;
+  double largest_voltage_V = 0;         ///< more is on no coil, see estimation::CoilLimits
   bool whole = false;                   ///< springs of both ends centre the spool: it rests in the centre, at no stop
   Magnitudes healthy = healthy_spread;  ///< of valves such as it about their models
   DirectionBaseline baseline;

@@ -50,6 +50,7 @@ Monitor::Monitor(const model::Model& model, const Options& options, const std::o
   for (std::size_t k = 0; k < sides(); ++k) {
     reference_[k].valve = &parameters(model, k == 1);
     reference_[k].stroke_m = model.valve.stroke_m;
+    reference_[k].largest_voltage_V = estimation::coil_limits(*reference_[k].valve).voltage_V;
     reference_[k].whole = model.whole();
     reference_[k].healthy = healthy_spread_of(model::of_direction(model, k == 1 ? "a" : "b"));
     reference_[k].baseline = baseline ? baseline->side[k] : DirectionBaseline{.spread = reference_[k].healthy};
@@ -156,7 +157,8 @@ void Monitor::take_motion(const estimation::TimedSample& sample, const sensor::E
                             .pressure_difference_Pa = answer.pressure_difference_Pa,
                             .sliding = !has(answer.status, sensor::Status::spool_at_rest),
                             .dithered = has(answer.status, sensor::Status::dithered)};
-  const double voltage_V = of_a ? sample.voltage_a_V : sample.voltage_V;
+  double voltage_V = of_a ? sample.voltage_a_V : sample.voltage_V;
+  estimation::take_away(voltage_V, reference.largest_voltage_V, estimation::not_measured);
   if (std::isfinite(motion.current_A))
     follow(state_.dither, valve.largest_current_A, {time_step_s, motion.current_A, motion.sliding});
   monitor::take(reference, limits_, state_.side[own],

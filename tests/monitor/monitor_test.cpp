@@ -135,6 +135,19 @@ TEST(Monitor, WhatItFoundIsPutRightInTheModelAndNoLongerThere) {
   EXPECT_FALSE(watched(corrected).side[0].raised);
 }
 
+TEST(Monitor, PassesOverAVoltageThatIsOnNoCoil) {
+  Answered run = ramp();
+  Monitor without(example()), with(example());
+  without.take(run.samples, run.answers);
+  for (const double voltage_V : {2e3, -1e38})
+    run.samples[run.samples.size() / (voltage_V > 0 ? 2 : 3)].voltage_V = voltage_V;
+  with.take(run.samples, run.answers);
+  const Indicator& expected = named(without.indicators(), "coil_resistance");
+  EXPECT_NEAR(named(with.indicators(), "coil_resistance").value, expected.value, 0.1 * expected.uncertainty_95);
+  Monitor again(example());
+  EXPECT_TRUE(again.set_state(with.state()));
+}
+
 TEST(Monitor, MeasuresHowTheSpoolFollowsItsCommand) {
   Monitor watch(example());
   for (std::size_t k = 0; k < 3000; ++k) {
