@@ -142,7 +142,7 @@ TEST(Monitor, PassesOverAVoltageThatIsOnNoCoil) {
   for (const double voltage_V : {2e3, -1e38})
     run.samples[run.samples.size() / (voltage_V > 0 ? 2 : 3)].voltage_V = voltage_V;
   with.take(run.samples, run.answers);
-  const Indicator& expected = named(without.indicators(), "coil_resistance");
+  const Indicator expected = named(without.indicators(), "coil_resistance");
   EXPECT_NEAR(named(with.indicators(), "coil_resistance").value, expected.value, 0.1 * expected.uncertainty_95);
   Monitor again(example());
   EXPECT_TRUE(again.set_state(with.state()));
