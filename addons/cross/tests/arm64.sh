@@ -31,9 +31,8 @@ run() { qemu-aarch64 -L "$kept/sysroot" -E LD_LIBRARY_PATH="$kept/sysroot/usr/li
 run root/usr/bin/spoolflow --version
 # CSV: beside the emulator's own thread no process can be forked that reads HDF5.
 "$build/bin/spoolflow" simulate "$source/examples/scenarios/ramp.toml" -o recording.csv -q
-recording=recording.csv
-run root/usr/bin/spoolflow estimate "$model" "$recording" -o there.csv -q
-"$build/bin/spoolflow" estimate "$model" "$recording" -o here.csv -q
+run root/usr/bin/spoolflow estimate "$model" recording.csv -o there.csv -q
+"$build/bin/spoolflow" estimate "$model" recording.csv -o here.csv -q
 test "$(wc -l <here.csv)" -gt 1000
 cmp here.csv there.csv
 aarch64-linux-gnu-gcc -std=c99 -Wall -Wextra -Werror -Iroot/usr/include "$source/examples/c_interface/estimate.c" -Lroot/usr/lib -lspoolflow \
