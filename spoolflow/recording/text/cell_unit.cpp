@@ -8,6 +8,7 @@
 #include "spoolflow/recording/files/decimal_number.hpp"
 #include "spoolflow/recording/files/header_name.hpp"
 #include "spoolflow/recording/text/csv_cells.hpp"
+#include "spoolflow/recording/text/decimal_sign.hpp"
 #include "spoolflow/recording/text/utf16.hpp"
 
 namespace spoolflow::recording {
@@ -83,7 +84,7 @@ std::optional<CellParts> split_cell(std::string_view cell) {
 }
 
 bool measures(std::string_view cell) {
-  return is_number(cell) || split_cell(cell).has_value();
+  return is_number(cell) || without_groups(cell) || split_cell(cell);
 }
 
 std::optional<units::Unit> unit_in_cell(std::string_view cell) {

@@ -17,7 +17,7 @@ struct CellParts {
 /// Nothing where the cell is a bare number or no such text.
 [[nodiscard]] std::optional<CellParts> split_cell(std::string_view cell);
 
-/// Whether a cell is a number, bare or with such a suffix.
+/// Whether a cell is a number, bare, with its thousands grouped or with such a suffix.
 [[nodiscard]] bool measures(std::string_view cell);
 
 /// The unit that a cell states; nothing for a prefix alone.

@@ -16,6 +16,7 @@
 #include "spoolflow/recording/text/csv_cells.hpp"
 #include "spoolflow/recording/text/foreign_text.hpp"
 #include "spoolflow/recording/text/labview_settings.hpp"
+#include "spoolflow/recording/text/rigol_settings.hpp"
 #include "spoolflow/recording/text/table_search.hpp"
 #include "spoolflow/recording/text/twincat_settings.hpp"
 #include "spoolflow/recording/text/utf16.hpp"
@@ -157,6 +158,13 @@ CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file,
             .least_cells = least_cells,
             .several_times = true,
             .end_word = "EOF"};
+  }
+  if (auto rigol = take_rigol_settings(rest, file)) {
+    return {.columns = std::move(rigol->columns),
+            .header_bytes = beginning.size() - rest.size(),
+            .header_lines = rigol->lines,
+            .stated_time = rigol->time,
+            .counts_samples = true};
   }
   const LabviewSettings labview = take_labview_settings(rest);
   dialect.header_lines = labview.lines;

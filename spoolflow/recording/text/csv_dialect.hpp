@@ -19,7 +19,8 @@ struct CsvDialect {
   bool several_times = false;                ///< columns have an own_time
   std::string end_word{};                    ///< a line that is no row, behind the last one; empty: none
   std::string next_block{};                  ///< the beginning of a line with which other columns begin; empty: none
-  std::optional<EvenStretch> stated_time{};  ///< of rows whose first cell is empty
+  std::optional<EvenStretch> stated_time{};  ///< of rows whose first cell is empty ...
+  bool counts_samples = false;               ///< ... or counts them
 };
 
 /// Reads byte order mark, settings and lines of title, comments (lines that begin with #), "sep=;", header and units

@@ -189,6 +189,7 @@ double CsvTable::cell_value(std::string_view cell, std::size_t column, std::size
   const Digits digits = read_number(cell, point_, value);
   if (digits == Digits::number) return value;
   if (digits == Digits::empty) return missing;
+  if (const auto plain = without_groups(cell); plain && plain->point == point_) return plain->value;
   if (const std::optional<ClockTime> clock = read_clock_time(cell)) {
     if (!clock_origin_) clock_origin_ = clock;
     return clock->day == 0 ? past_midnight(clock->since(*clock_origin_), slot) : clock->since(*clock_origin_);
@@ -219,6 +220,11 @@ double CsvTable::cell_value(std::string_view cell, std::size_t column, std::size
       fmt::format("{}: '{}' is not a number (decimal sign here: '{}'); correct it, or leave the cell "
                   "empty where a sample is missing",
                   place, shown, point_));
+}
+
+double CsvTable::stated_time(std::string_view first_cell, std::size_t slot) {
+  const double sample = first_cell.empty() ? static_cast<double>(rows_) : cell_value(first_cell, 0, slot);
+  return dialect_.stated_time->begin_s + sample * dialect_.stated_time->step_s;
 }
 
 double CsvTable::past_midnight(double time_s, std::size_t slot) {
@@ -279,9 +285,8 @@ bool CsvTable::careful_row(std::string_view line, std::span<double* const> out, 
     if (!cell.text.empty()) used = cells + 1;
     if (cells >= slot_of_column_.size() || slot_of_column_[cells] < 0) continue;
     const auto slot = static_cast<std::size_t>(slot_of_column_[cells]);
-    const bool stated = dialect_.stated_time && cells == 0 && cell.text.empty();
-    out[slot][row] = stated ? dialect_.stated_time->begin_s + static_cast<double>(rows_) * dialect_.stated_time->step_s
-                            : cell_value(cell.text, cells, slot);
+    const bool stated = dialect_.stated_time && cells == 0 && (cell.text.empty() || dialect_.counts_samples);
+    out[slot][row] = stated ? stated_time(cell.text, slot) : cell_value(cell.text, cells, slot);
   }
   if (dialect_.least_cells > 0 && cells >= dialect_.least_cells) {
     for (; cells < slot_of_column_.size(); ++cells)
@@ -304,7 +309,7 @@ std::size_t CsvTable::read(std::span<double* const> out, std::size_t rows) {
     const char* const end = buffer_.data() + lines_end_;
     while (row < rows && cursor != end) {
       ++line_;
-      if (quotes_ || *cursor == '#' || !plain_row(cursor, out, row)) {
+      if (quotes_ || dialect_.counts_samples || *cursor == '#' || !plain_row(cursor, out, row)) {
         std::string_view rest(cursor, static_cast<std::size_t>(end - cursor));
         const std::string_view line = take_line(rest);
         cursor = rest.empty() ? end : rest.data();

@@ -33,6 +33,18 @@ Writing writing_of(std::string_view text, char mark) {
 
 }  // namespace
 
+std::optional<GroupedNumber> without_groups(std::string_view cell) {
+  const std::size_t last = cell.find_last_of(".,");
+  if (last == std::string_view::npos) return std::nullopt;
+  const char point = cell[last], mark = point == ',' ? '.' : ',';
+  if (writing_of(cell.substr(0, last), mark) != Writing::grouped) return std::nullopt;
+  std::string digits(cell);
+  std::erase(digits, mark);
+  double value = 0;
+  if (read_number(digits, point, value) != Digits::number) return std::nullopt;
+  return GroupedNumber{value, point};
+}
+
 void DecimalSign::look_at(std::string_view lines, char delimiter) {
   constexpr std::array<char, 2> marks{'.', ','};
   while (!lines.empty() && marked_[0] + marked_[1] < enough) {
@@ -46,14 +58,13 @@ void DecimalSign::look_at(std::string_view lines, char delimiter) {
       if (found == columns_.end()) continue;
       const auto measured = split_cell(cell.text);
       const std::string_view number = measured ? measured->number : cell.text;
+      if (const auto plain = without_groups(number)) ++marked_[plain->point == ',' ? 1 : 0];
       if (!is_number(number)) continue;
-      const bool has_both =
-          std::ranges::all_of(marks, [&](char mark) { return number.find(mark) != std::string_view::npos; });
       for (std::size_t m = 0; m < marks.size(); ++m) {
         Cells& cells = found->second[m];
         const Writing writing = writing_of(number, marks[m]);
         const bool has_mark = number.find(marks[m]) != std::string_view::npos;
-        marked_[m] += has_mark && !has_both ? 1 : 0;
+        marked_[m] += has_mark ? 1 : 0;
         cells.whole += writing == Writing::whole ? 1 : 0;
         cells.decimal += has_mark && writing != Writing::grouped ? 1 : 0;
         if (writing == Writing::grouped && ++cells.grouped == 1) cells.first = cell.text;

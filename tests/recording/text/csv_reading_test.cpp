@@ -303,6 +303,19 @@ TEST(CsvReading, TakesThreeDecimalsForDecimalsWhereNothingSpeaksForThousands) {
       read_csv("time_ms;position_mm\n0;1\n1;2\n2;2.125\n3;0.5\n", position_over_time)[Channel::position][2], 2.125e-3);
 }
 
+TEST(CsvReading, ReadsGroupedThousandsBesideADecimalSign) {
+  const ReadOptions options{{}, {Channel::time, Channel::current, Channel::position}, {}, {}};
+  for (const char* text : {"Time (ms);Current (mA);Position (um)\n998,00;1.000,00;-1.928,10\n1.000,00;999,50;0,00\n",
+                           "time_ms,current_mA,position_um\n998,\"1,000.00\",\"-1,928.10\"\n\"1,000.0\",999.5,0\n"}) {
+    const Recording run = read_csv(text, options);
+    EXPECT_THAT(column(run, Channel::time), ElementsAre(0.998, 1.0)) << text;
+    EXPECT_THAT(column(run, Channel::current), ElementsAre(1.0, 0.9995)) << text;
+    EXPECT_THAT(column(run, Channel::position), ElementsAre(-1.9281e-3, 0.0)) << text;
+  }
+  EXPECT_THAT(refused_csv("time_ms;position_um\n0;0,5\n1;1,234.5\n"), HasSubstr("'1,234.5' is not a number"));
+  EXPECT_THAT(refused_csv("time_ms;position_um\n0;0,5\n1;1.23,5\n"), HasSubstr("'1.23,5' is not a number"));
+}
+
 TEST(CsvReading, RefusesZeroBytesWhereverTheyStand) {
   std::string text = "time_s,position_mm,remark\n";
   for (int k = 0; k < 30000; ++k) text += std::to_string(0.001 * k) + ",0.5,nothing to say\n";

@@ -1,4 +1,5 @@
-/// Text in which channels have times of their own, or state them above: exports of TwinCAT Scope and of LabVIEW.
+/// Text in which channels have times of their own, or state them above: exports of TwinCAT Scope, of LabVIEW
+/// and of Rigol oscilloscopes.
 #include <string>
 
 #include <gmock/gmock.h>
@@ -12,6 +13,7 @@
 namespace spoolflow::recording {
 namespace {
 
+using testing::DoubleNear;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -116,6 +118,23 @@ TEST(PairedTable, ReadsTimesOfALabViewFileThatStatesThemByTheirStep) {
                                 "position");
               }),
               HasSubstr("line 16: another block of samples begins"));
+}
+
+TEST(PairedTable, CountsTheSamplesOfARigolOscilloscopeFromTheTimeThatItStates) {
+  const std::string rows = "0,1.25e+00,5.0e-01,\n1,1.50e+00,7.5e-01,\n4,1.75e+00,8.0e-01,\n";
+  for (const std::string end : {"", ","}) {
+    const std::string text = "X,CH1,CH2,Start,Increment" + end + "\nSequence,Volt,Volt,-6.0e-03,1.0e-03\n" + rows;
+    EXPECT_THAT(column_of("scope.csv", text, "time"),
+                ElementsAre(DoubleNear(-6e-3, 1e-15), DoubleNear(-5e-3, 1e-15), DoubleNear(-2e-3, 1e-15)));
+    EXPECT_THAT(column_of("scope.csv", text, "CH2"), ElementsAre(0.5, 0.75, 0.8));
+  }
+  for (const std::string times : {"-6.0e-03,0", "-6.0e-03", ",1e-3"}) {
+    EXPECT_THAT(refusal([&] {
+                  (void)column_of("scope.csv", "X,CH1,CH2,Start,Increment\nSequence,Volt,Volt," + times + "\n" + rows,
+                                  "CH2");
+                }),
+                HasSubstr("line 2: states no first time and no time step > 0"));
+  }
 }
 
 }  // namespace
