@@ -18,29 +18,6 @@ constexpr std::array<std::string_view, 12> time_words{"time",     "t",          
                                                       "tempo",    "tiempo",      "jikan", "timestamp",
                                                       "timebase", "zeitstempel", "times", "timestamps"};
 
-/// "pressureTime_ms" and "p_time" in words: pressure, time, ms. A single capital T stays one: it is a temperature.
-std::vector<std::string> words_of(std::string_view name) {
-  std::vector<std::string> out(1);
-  char last = '_';
-  for (const char c : name) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (std::isalnum(byte) == 0) {
-      if (!out.back().empty()) out.emplace_back();
-    } else {
-      const bool begins = std::isupper(byte) != 0 && std::islower(static_cast<unsigned char>(last)) != 0;
-      if (begins) out.emplace_back();
-      out.back() += c;
-    }
-    last = c;
-  }
-  for (std::string& word : out) {
-    if (word == "T") continue;
-    std::ranges::transform(word, word.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  }
-  std::erase(out, "");
-  return out;
-}
-
 bool is_time_word(const std::string& word) {
   return std::ranges::find(time_words, word) != time_words.end();
 }

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "spoolflow/numerics/median.hpp"
 #include "spoolflow/recording/channels/allowed_names.hpp"
 #include "spoolflow/recording/column_survey.hpp"
@@ -184,7 +186,7 @@ std::vector<bool> numberless(const std::vector<SurveyedColumn>& columns) {
 }
 
 /// Guesses by data what names do not state, and says of every column what it is taken for.
-void look_at_columns(Inspection& out, std::vector<SurveyedColumn> columns) {
+void look_at_columns(Inspection& out, const Proposal& proposal, std::vector<SurveyedColumn> columns) {
   for (std::size_t k = 0; k < columns.size(); ++k) columns[k].unit = out.contents.units[k];
   std::map<Channel, std::size_t> known;
   for (const auto& [channel, source] : out.proposal.sources) {
@@ -197,9 +199,13 @@ void look_at_columns(Inspection& out, std::vector<SurveyedColumn> columns) {
     const auto unit = units::unit_named(column.unit);
     const bool fits = unit && (unit->dimension == dimension(channel) || unit->dimension == units::Dimension::voltage);
     out.proposal.sources.try_emplace(channel, ChannelSource{column.name, fits ? column.unit : "", 1.0, 0.0, {}});
-    out.remarks.emplace(channel, "a guess, check it: " + guess.why);
     known.emplace(channel, guess.column);
   }
+  std::map<Channel, std::string> reasons;
+  for (const auto& [channel, guess] : guesses) reasons.emplace(channel, guess.why);
+  for (const auto& [channel, word] : proposal.by_word)
+    reasons.emplace(channel, fmt::format("its name holds the word '{}'", word));
+  for (const auto& [channel, why] : reasons) out.remarks.emplace(channel, "a guess, check it: " + why);
   for (std::size_t k = 0; k < columns.size(); ++k) {
     InspectedColumn& each = out.columns.emplace_back();
     each.name = columns[k].name, each.unit = columns[k].unit;
@@ -219,9 +225,9 @@ void look_at_columns(Inspection& out, std::vector<SurveyedColumn> columns) {
       continue;
     }
     each.channel = taken->first;
-    const auto guess = guesses.find(taken->first);
-    each.guessed = guess != guesses.end();
-    each.why = each.guessed ? guess->second.why : how_known(out.contents.column(k), taken->first);
+    const auto reason = reasons.find(taken->first);
+    each.guessed = reason != reasons.end();
+    each.why = each.guessed ? reason->second : how_known(out.contents.column(k), taken->first);
     if (columns[k].samples == 0 || columns[k].text.count > 0) each.why += "; " + character_of(columns[k]);
   }
 }
@@ -250,7 +256,7 @@ Inspection inspect(const std::filesystem::path& file, const ReadOptions& options
   if (options.channels.sources.empty()) {
     say_what_could_be_it(out, proposal);
     say_what_a_bench_calls_them(out, proposal);
-    look_at_columns(out, std::move(columns));
+    look_at_columns(out, proposal, std::move(columns));
     find_missing(out);
     if (even) std::erase(out.missing, Channel::time);
   }

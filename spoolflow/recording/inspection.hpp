@@ -29,7 +29,7 @@ struct InspectedColumn {
   double lowest, highest;          ///< in that unit; NaN without numbers
   std::optional<Channel> channel;  ///< nothing: not used
   std::string why;                 ///< of a channel how that is known, else what the column could be
-  bool guessed = false;            ///< by its numbers alone
+  bool guessed = false;            ///< by its numbers, or by a word of its name
   bool times_others = false;       ///< it holds the times of other columns
 };
 

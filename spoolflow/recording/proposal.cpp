@@ -87,6 +87,7 @@ struct NameParts {
   std::string word;
   std::string unit;
   bool capital = false;  ///< begins with a capital letter
+  std::vector<std::string> words{};
 };
 
 std::string letters_of(std::string_view text) {
@@ -143,6 +144,7 @@ NameParts parts_of(const std::string& name, const std::string& given_unit) {
     }
   }
   out.word = letters_of(without_inputs(stem));
+  out.words = words_of(stem);
   return out;
 }
 
@@ -201,6 +203,49 @@ std::optional<Channel> channel_called(const NameParts& parts, bool all_ports) {
   return std::nullopt;
 }
 
+/// A channel, and the word that stands for it.
+struct ChannelWord {
+  Channel channel;
+  std::string word;
+};
+
+/// Of words among which others stand; nothing where they are of two channels, of a set value or of a limit.
+std::optional<ChannelWord> channel_among(const NameParts& parts) {
+  constexpr std::size_t least_letters = 3;
+  constexpr std::array<std::string_view, 13> of_no_measurement{
+      "set", "soll", "cmd", "command", "ref", "target", "limit", "error", "min", "max", "fault", "status", "offset"};
+  std::optional<ChannelWord> out;
+  for (const std::string& word : parts.words) {
+    if (std::ranges::count(of_no_measurement, word) > 0) return std::nullopt;
+    const auto entry =
+        std::ranges::find_if(vocabulary, [&](const Words& each) { return std::ranges::count(each.words, word) > 0; });
+    if (word.size() < least_letters || entry == vocabulary.end()) continue;
+    if (out && out->channel != entry->channel) return std::nullopt;
+    out = ChannelWord{entry->channel, word};
+  }
+  return out && may_have(out->channel, parts.unit) ? out : std::nullopt;
+}
+
+/// Of the columns that are free, see Proposal::by_word.
+void propose_by_words(Proposal& out, const FileContents& contents, const std::vector<bool>& taken) {
+  const auto known = [&](Channel channel) { return out.map.sources.contains(channel); };
+  std::map<Channel, std::vector<std::pair<std::size_t, std::string>>> found;
+  for (std::size_t k = 0; k < contents.columns.size(); ++k) {
+    if (taken[k]) continue;
+    if (const auto word = channel_among(parts_of(contents.leaves[k], contents.units[k])))
+      found[word->channel].emplace_back(k, word->word);
+  }
+  for (const Channel channel : {Channel::current, Channel::voltage, Channel::position, Channel::oil_temperature}) {
+    const bool of_coils = (channel == Channel::current && known(Channel::current_a)) ||
+                          (channel == Channel::voltage && known(Channel::voltage_a));
+    if (known(channel) || of_coils || found[channel].size() != 1) continue;
+    const auto& [column, word] = found[channel].front();
+    const std::string unit = parts_of(contents.leaves[column], contents.units[column]).unit;
+    out.map.sources.emplace(channel, ChannelSource{contents.columns[column], unit, 1.0, 0.0, {}});
+    out.by_word.emplace(channel, word);
+  }
+}
+
 }  // namespace
 
 Proposal propose_channels(const FileContents& contents, const std::vector<bool>& numberless) {
@@ -235,6 +280,11 @@ Proposal propose_channels(const FileContents& contents, const std::vector<bool>&
       if (const auto channel = channel_called(parts, out.all_ports)) propose(*channel, contents.columns[k], parts.unit);
     }
   }
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    const NameParts parts = parts_of(contents.leaves[k], contents.units[k]);
+    own[k] = own[k] || channel_called(parts, out.all_ports);
+  }
+  propose_by_words(out, contents, own);
   return out;
 }
 

@@ -13,6 +13,9 @@ struct Proposal {
   ChannelMap map;
   /// Columns that could be a channel of the map as well as the one that is proposed, in the file's order.
   std::map<Channel, std::vector<std::string>> as_well{};
+  /// Of current, voltage, position and oil temperature, where no column is called by them alone: the word of the only
+  /// one whose name holds it among others, such as "PLC.rPosition".
+  std::map<Channel, std::string> by_word{};
   /// The pressures of all four ports are named by their port ("pA"). Without one of them, those at P and B are taken
   /// for pressure_upstream and pressure_downstream.
   bool all_ports = false;

@@ -92,6 +92,23 @@ TEST_F(Inspect, GuessesFromTheNumbersWhereNamesSayNothing) {
   EXPECT_THAT(output, HasSubstr("Columns that are not used: A5"));
 }
 
+TEST_F(Inspect, GuessesFromOneWordOfANameBeforeItDoesFromTheNumbers) {
+  std::string lines = "Timestamp [us];PLC.rVoltage;PLC.rCurrent;PLC.rCurrentSet;PLC.rPosition;PositionLimit\n";
+  for (int k = 0; k < 200; ++k)
+    lines += fmt::format("{};{};{};{};{};7\n", 1000 * k, 5 + k % 9, 1 + k % 5, 1 + k % 4, k % 7);
+  write("plc.csv", lines);
+  const std::string output = run("inspect plc.csv").output;
+  EXPECT_THAT(output,
+              HasSubstr("current = { column = \"PLC.rCurrent\", unit = \"?\" }  # a guess, check it: its name holds "
+                        "the word 'current'"));
+  EXPECT_THAT(output, HasSubstr("voltage = { column = \"PLC.rVoltage\""));
+  EXPECT_THAT(output, HasSubstr("position = { column = \"PLC.rPosition\""));
+  write("can.csv", "Time[s];Current::MsgA[mA];Position::MsgB[%];Position::MsgC[%]\n0;1;1;2\n1;1;1;2\n");
+  const std::string two = run("inspect can.csv").output;
+  EXPECT_THAT(two, HasSubstr("current = { column = \"Current::MsgA[mA]\", unit = \"mA\" }"));
+  EXPECT_THAT(two, HasSubstr("# position = { column = \"?\""));
+}
+
 TEST_F(Inspect, OfAScopeGuessesFromUnitsAndFromWhatFollowsTheCurrent) {
   std::string lines = "Time,Channel A,Channel B,Channel C\n(ms),(A),(V),(V)\n\n";
   const auto current_A = [](int k) { return 1.2 + 0.5 * std::sin(0.004 * k) + 0.2 * std::sin(0.031 * k); };

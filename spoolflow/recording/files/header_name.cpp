@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 #include "spoolflow/recording/files/decimal_number.hpp"
 
@@ -121,6 +122,7 @@ NameAndUnit unit_among_words(std::string_view name) {
     const std::string_view word = name.substr(gap + 1, end - gap - 1);
     if (before != std::string_view::npos && before > 0) {
       const std::string_view two = name.substr(before + 1, end - before - 1);
+      if (two.starts_with("in ") && units::unit_named(word)) return {without_joints(name.substr(0, gap)), word};
       if (two.starts_with("deg") && units::unit_named(two)) return {without_joints(name.substr(0, before)), two};
     }
     if (is_unit_word(word)) return {without_joints(name.substr(0, gap)), word};
@@ -146,6 +148,28 @@ NameAndUnit split_unit(std::string_view name) {
     return {without_joints(name.substr(0, brackets.back().begin)), brackets.back().inside};
   if (first != brackets.end()) return {without_joints(name.substr(0, first->begin)), first->inside};
   return unit_among_words(name);
+}
+
+std::vector<std::string> words_of(std::string_view name) {
+  std::vector<std::string> out(1);
+  char last = '_';
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (std::isalnum(byte) == 0) {
+      if (!out.back().empty()) out.emplace_back();
+    } else {
+      const bool begins = std::isupper(byte) != 0 && std::islower(static_cast<unsigned char>(last)) != 0;
+      if (begins) out.emplace_back();
+      out.back() += c;
+    }
+    last = c;
+  }
+  for (std::string& word : out) {
+    if (word == "T") continue;
+    std::ranges::transform(word, word.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  }
+  std::erase(out, "");
+  return out;
 }
 
 bool is_units_row(const std::vector<std::string_view>& cells) {

@@ -20,6 +20,9 @@ struct NameAndUnit {
 };
 [[nodiscard]] NameAndUnit split_unit(std::string_view name);
 
+/// "pressureTime_ms" and "p_time" in words: pressure, time, ms. A single capital T stays one: it is a temperature.
+[[nodiscard]] std::vector<std::string> words_of(std::string_view name);
+
 /// `<channel>_<unit>`, or the bare channel's name with its unit as split_unit() finds it or in a units row. The name
 /// may have capital letters and other gaps ("Oil Temperature [degC]", "OilTemperature_degC") where a unit of the
 /// channel stands with it; a column that has the name as it is comes before such a one.

@@ -191,7 +191,8 @@ CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file,
   }
   if (place->units) {
     const std::vector<std::string_view> units = cells_of(uncommented(lines[*place->units]), dialect.delimiter);
-    for (std::size_t k = 0; k < std::min(units.size(), names.size()); ++k) dialect.columns[k].unit = utf8_of(units[k]);
+    for (std::size_t k = labels_units(units.front()) ? 1 : 0; k < std::min(units.size(), names.size()); ++k)
+      dialect.columns[k].unit = utf8_of(units[k]);
   }
   for (std::size_t last = std::max(*place->header, place->units.value_or(0)) + 1; last > 0; --last) {
     const std::string_view taken = take_quoted_line(rest);

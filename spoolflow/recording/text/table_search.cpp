@@ -50,6 +50,11 @@ bool is_row_of_names(const Cells& cells) {
   return !others && 2 * names >= static_cast<std::ptrdiff_t>(cells.size()) && names > 0;
 }
 
+/// Such as "1000 Hz" or a date: what stands beside names, seldom one.
+bool begins_with_digit(std::string_view cell) {
+  return !cell.empty() && cell.front() >= '0' && cell.front() <= '9';
+}
+
 bool holds_a_name(const Cells& cells) {
   return std::ranges::any_of(cells, [](std::string_view cell) { return !cell.empty() && !is_value(cell); });
 }
@@ -103,7 +108,10 @@ class CutLines {
     const auto fits = [&](std::size_t k) { return rows_[k].size() == found.width; };
     const auto exceeds = [&](std::size_t k) { return rows_[k].size() > found.width; };
     const auto lacks_some = [&](std::size_t k) { return rows_[k].size() > 1 && 2 * rows_[k].size() > found.width; };
-    if (names_above(out, false, fits) || names_above(out, false, exceeds) || names_above(out, true, fits)) return out;
+    const bool named =
+        names_above(out, false, fits) || names_above(out, false, exceeds) || names_above(out, true, fits);
+    if (named && !out.units) out.units = labelled_units_above(*out.header);
+    if (named) return out;
     const std::size_t below = next_row(found.first);
     if (below < rows_.size() && names_row_below(rows_[found.first], rows_[below])) {
       out.header = found.first;
@@ -118,6 +126,7 @@ class CutLines {
   template <class Fits>
   bool names_above(TablePlace& out, bool comments, Fits&& fits) const {
     std::optional<std::size_t> units;
+    TablePlace numbered = out;  // with names that all begin with a digit, where no others stand above
     for (std::size_t k = out.samples; k-- > 0;) {
       if (is_blank(lines_[k]) || comments_[k] != comments) continue;
       if (!units && rows_[k].size() <= out.width && is_units_row(rows_[k])) {
@@ -125,12 +134,27 @@ class CutLines {
         continue;
       }
       if (!fits(k) || (units ? !holds_a_name(rows_[k]) : !is_row_of_names(rows_[k]))) continue;
-      out.header = k;
-      out.units = units;
-      return true;
+      TablePlace& found = std::ranges::all_of(rows_[k], begins_with_digit) ? numbered : out;
+      if (found.header) continue;
+      found.header = k;
+      found.units = units;
+      if (out.header) return true;
     }
+    if (numbered.header) out = numbered;
+    if (out.header) return true;
     if (units && fits(*units)) out.header = units;  // names that are letters alone
     return out.header.has_value();
+  }
+
+  /// A row of units that says so in its first cell, as oscilloscopes write it above the names.
+  [[nodiscard]] std::optional<std::size_t> labelled_units_above(std::size_t header) const {
+    for (std::size_t k = header; k-- > 0;) {
+      const Cells& cells = rows_[k];
+      if (cells.size() == rows_[header].size() && labels_units(cells.front()) &&
+          is_units_row({cells.begin() + 1, cells.end()}))
+        return k;
+    }
+    return std::nullopt;
   }
 
   [[nodiscard]] std::size_t next_row(std::size_t k) const {
@@ -159,6 +183,11 @@ std::optional<TablePlace> find_table(const std::vector<std::string_view>& lines,
     out = cut.place(found);
   }
   return out;
+}
+
+bool labels_units(std::string_view cell) {
+  const std::vector<std::string> words = words_of(cell);
+  return std::ranges::count(words, "unit") + std::ranges::count(words, "units") > 0;
 }
 
 std::string_view uncommented(std::string_view line) {

@@ -23,6 +23,9 @@ struct TablePlace {
 [[nodiscard]] std::optional<TablePlace> find_table(const std::vector<std::string_view>& lines,
                                                    std::optional<char> declared);
 
+/// Whether the first cell of a row says that units follow: "Vertical Units", "unit".
+[[nodiscard]] bool labels_units(std::string_view cell);
+
 /// A line without the signs of a comment (#, %, //) before it.
 [[nodiscard]] std::string_view uncommented(std::string_view line);
 

@@ -20,6 +20,7 @@ TEST(HeaderName, FindsTheUnitWhereverItStandsInAName) {
   EXPECT_EQ(unit_in("Temp degC, filtered"), "degC");
   EXPECT_EQ(unit_in("Oil deg C"), "deg C");
   EXPECT_EQ(unit_in("Current in mA"), "mA");
+  EXPECT_EQ(unit_in("C1 in A"), "A");
   EXPECT_EQ(unit_in("Pressure, bar"), "bar");
   EXPECT_EQ(unit_in("I / mA"), "mA");
   EXPECT_EQ(unit_in("p1/bar"), "bar");

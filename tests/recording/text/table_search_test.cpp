@@ -65,6 +65,10 @@ TEST(TableSearch, ReadsNamesAsSpreadsheetsAndOtherProgramsWriteThem) {
            "time,current,position\n(s),(A),(mm)\n\n0,1.25,0.5\n0.001,1.5,1\n0.002,1.5,1.5\n",
            "time;current;position;remark\ns;A;mm\n0;1,25;0,5;\n0,001;1,5;1;\n0,002;1,5;1,5;peak\n",
            ",time_s,current_A,position_mm\n0,0,1.25,0.5\n1,0.001,1.5,1\n2,0.002,1.5,1.5\n",
+           "time,current,position\n1000 Hz,1000 Hz,1000 Hz\ns,A,mm\n0,1.25,0.5\n0.001,1.5,1\n0.002,1.5,1.5\n",
+           "Model,MSO56\nVertical Units,A,mm\nVertical Offset,0,0\n,,\nLabel,coil,spool\n"
+           "time_s,current,position\n0,1.25,0.5\n0.001,1.5,1\n0.002,1.5,1.5\n",
+           "time_s;current;position\nunit;A;mm\n0;1.25;0.5\n0.001;1.5;1\n0.002;1.5;1.5\n",
            "Unnamed: 0,time_s,current_A,position_mm\n0,0,1.25,0.5\n1,0.001,1.5,1\n2,0.002,1.5,1.5\n",
            "\xEF\xBB\xBF\"sep=;\"\n\"time_s\";\"current_A\";\"position_mm\"\n0;1,25;0,5\n0,001;1,5;1\n0,002;1,5;1,5\n",
        })
@@ -95,6 +99,10 @@ TEST(TableSearch, NamesAColumnWithoutANameByItsNumber) {
 TEST(TableSearch, TakesNumbersForNamesOfColumnsWhereTheFirstIsText) {
   EXPECT_THAT(column_of("run.csv", "x-axis,1,2\nsecond,Volt,Volt\n0,2,3\n1,4,5\n", "2"), ElementsAre(3, 5));
   EXPECT_THAT(column_of("run.csv", "x-axis,1,2\n0,2,3\n1,4,5\n", "1"), ElementsAre(2, 4));
+}
+
+TEST(TableSearch, TakesNamesThatBeginWithDigitsWhereNoOthersStandAbove) {
+  EXPECT_THAT(column_of("run.csv", "Rig 3\n1: time;2: current\ns;A\n0;2\n1;4\n", "2: current"), ElementsAre(2, 4));
 }
 
 TEST(TableSearch, LeavesRowsWithoutNumbersBelowTheHeaderToTheReader) {
