@@ -185,6 +185,21 @@ std::vector<bool> numberless(const std::vector<SurveyedColumn>& columns) {
   return out;
 }
 
+/// A time without a unit that counts from 1970, of which its size says the unit.
+void guess_unit_of_time(Inspection& out, const std::vector<SurveyedColumn>& columns) {
+  const auto time = out.proposal.sources.find(Channel::time);
+  if (time == out.proposal.sources.end() || !time->second.unit.empty()) return;
+  const auto column = std::ranges::find(columns, time->second.column, &SurveyedColumn::name);
+  constexpr std::array<std::pair<const char*, double>, 4> in_2001{
+      {{"s", 1e9}, {"ms", 1e12}, {"us", 1e15}, {"ns", 1e18}}};
+  for (const auto& [unit, value] : in_2001) {
+    if (column == columns.end() || !(column->lowest >= value && column->highest < 4 * value)) continue;
+    time->second.unit = unit;
+    std::string& remark = out.remarks[Channel::time];
+    remark += fmt::format("{} in {} it counts from 1970", remark.empty() ? "a guess, check it:" : ";", unit);
+  }
+}
+
 /// Guesses by data what names do not state, and says of every column what it is taken for.
 void look_at_columns(Inspection& out, const Proposal& proposal, std::vector<SurveyedColumn> columns) {
   for (std::size_t k = 0; k < columns.size(); ++k) columns[k].unit = out.contents.units[k];
@@ -206,6 +221,7 @@ void look_at_columns(Inspection& out, const Proposal& proposal, std::vector<Surv
   for (const auto& [channel, word] : proposal.by_word)
     reasons.emplace(channel, fmt::format("its name holds the word '{}'", word));
   for (const auto& [channel, why] : reasons) out.remarks.emplace(channel, "a guess, check it: " + why);
+  guess_unit_of_time(out, columns);
   for (std::size_t k = 0; k < columns.size(); ++k) {
     InspectedColumn& each = out.columns.emplace_back();
     each.name = columns[k].name, each.unit = columns[k].unit;

@@ -103,6 +103,9 @@ TEST_F(Inspect, GuessesFromOneWordOfANameBeforeItDoesFromTheNumbers) {
                         "the word 'current'"));
   EXPECT_THAT(output, HasSubstr("voltage = { column = \"PLC.rVoltage\""));
   EXPECT_THAT(output, HasSubstr("position = { column = \"PLC.rPosition\""));
+  write("logger.csv", "timestamp,current_A,position_mm\n1795860000000,1,1\n1795860000002,1,1\n");
+  EXPECT_THAT(run("inspect logger.csv").output,
+              HasSubstr("unit = \"ms\" }  # a guess, check it: in ms it counts from 1970"));
   write("can.csv", "Time[s];Current::MsgA[mA];Position::MsgB[%];Position::MsgC[%]\n0;1;1;2\n1;1;1;2\n");
   const std::string two = run("inspect can.csv").output;
   EXPECT_THAT(two, HasSubstr("current = { column = \"Current::MsgA[mA]\", unit = \"mA\" }"));
