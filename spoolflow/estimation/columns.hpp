@@ -1,7 +1,6 @@
 #pragma once
 /// From columns of samples to answers: the one way through which a sensor meets what was recorded, simulated or sent.
 #include <concepts>
-#include <limits>
 #include <span>
 
 #include "spoolflow/estimation/running_sensor.hpp"

@@ -181,10 +181,9 @@ std::optional<Channel> port_pressure(std::string_view word) {
 }
 
 /// Whether the pressures of all four ports have a column. Else those at P and B are before and behind one edge.
-bool has_all_ports(const FileContents& contents) {
+bool has_all_ports(const std::vector<NameParts>& names) {
   std::set<Channel> found;
-  for (std::size_t k = 0; k < contents.columns.size(); ++k) {
-    const NameParts parts = parts_of(contents.leaves[k], contents.units[k]);
+  for (const NameParts& parts : names) {
     const auto port = port_pressure(parts.word);
     if (port && may_have(*port, parts.unit)) found.insert(*port);
   }
@@ -227,21 +226,19 @@ std::optional<ChannelWord> channel_among(const NameParts& parts) {
 }
 
 /// Of the columns that are free, see Proposal::by_word.
-void propose_by_words(Proposal& out, const FileContents& contents, const std::vector<bool>& taken) {
+void propose_by_words(Proposal& out, const FileContents& contents, const std::vector<NameParts>& names,
+                      const std::vector<bool>& taken) {
   const auto known = [&](Channel channel) { return out.map.sources.contains(channel); };
   std::map<Channel, std::vector<std::pair<std::size_t, std::string>>> found;
-  for (std::size_t k = 0; k < contents.columns.size(); ++k) {
-    if (taken[k]) continue;
-    if (const auto word = channel_among(parts_of(contents.leaves[k], contents.units[k])))
-      found[word->channel].emplace_back(k, word->word);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (const auto word = channel_among(names[k]); word && !taken[k]) found[word->channel].emplace_back(k, word->word);
   }
   for (const Channel channel : {Channel::current, Channel::voltage, Channel::position, Channel::oil_temperature}) {
     const bool of_coils = (channel == Channel::current && known(Channel::current_a)) ||
                           (channel == Channel::voltage && known(Channel::voltage_a));
     if (known(channel) || of_coils || found[channel].size() != 1) continue;
     const auto& [column, word] = found[channel].front();
-    const std::string unit = parts_of(contents.leaves[column], contents.units[column]).unit;
-    out.map.sources.emplace(channel, ChannelSource{contents.columns[column], unit, 1.0, 0.0, {}});
+    out.map.sources.emplace(channel, ChannelSource{contents.columns[column], names[column].unit, 1.0, 0.0, {}});
     out.by_word.emplace(channel, word);
   }
 }
@@ -271,20 +268,20 @@ Proposal propose_channels(const FileContents& contents, const std::vector<bool>&
         propose(headers[k]->channel, contents.columns[k], headers[k]->unit);
     }
   }
-  out.all_ports = has_all_ports(contents);
+  std::vector<NameParts> names;
+  for (std::size_t k = 0; k < own.size(); ++k) names.push_back(parts_of(contents.leaves[k], contents.units[k]));
+  out.all_ports = has_all_ports(names);
   for (const bool with_unit : {true, false}) {
     found.clear();
     for (std::size_t k = 0; k < own.size(); ++k) {
-      const NameParts parts = parts_of(contents.leaves[k], contents.units[k]);
-      if (own[k] || parts.unit.empty() == with_unit) continue;
-      if (const auto channel = channel_called(parts, out.all_ports)) propose(*channel, contents.columns[k], parts.unit);
+      if (own[k] || names[k].unit.empty() == with_unit) continue;
+      if (const auto channel = channel_called(names[k], out.all_ports)) {
+        propose(*channel, contents.columns[k], names[k].unit);
+        own[k] = true;
+      }
     }
   }
-  for (std::size_t k = 0; k < own.size(); ++k) {
-    const NameParts parts = parts_of(contents.leaves[k], contents.units[k]);
-    own[k] = own[k] || channel_called(parts, out.all_ports);
-  }
-  propose_by_words(out, contents, own);
+  propose_by_words(out, contents, names, own);
   return out;
 }
 
