@@ -8,7 +8,7 @@
 #include "spoolflow/recording/files/decimal_number.hpp"
 #include "spoolflow/recording/files/header_name.hpp"
 #include "spoolflow/recording/text/csv_cells.hpp"
-#include "spoolflow/recording/text/decimal_sign.hpp"
+#include "spoolflow/recording/text/grouped_number.hpp"
 #include "spoolflow/recording/text/utf16.hpp"
 
 namespace spoolflow::recording {

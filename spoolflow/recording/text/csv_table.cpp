@@ -11,6 +11,7 @@
 #include "spoolflow/recording/text/cell_unit.hpp"
 #include "spoolflow/recording/text/csv_cells.hpp"
 #include "spoolflow/recording/text/csv_scan.hpp"
+#include "spoolflow/recording/text/grouped_number.hpp"
 
 namespace spoolflow::recording {
 namespace {

@@ -9,15 +9,6 @@
 
 namespace spoolflow::recording {
 
-/// A number whose thousands are grouped, such as 1.234,56.
-struct GroupedNumber {
-  double value;
-  char point;  ///< its decimal sign
-};
-/// Nothing where a cell does not hold both marks, one of them before groups of three digits and the other once behind
-/// them: 1.234 alone is no such number.
-[[nodiscard]] std::optional<GroupedNumber> without_groups(std::string_view cell);
-
 /// A cell that looks as if its mark groups thousands.
 struct GroupedCell {
   std::size_t column;
