@@ -233,11 +233,11 @@ void propose_by_words(Proposal& out, const FileContents& contents, const std::ve
   for (std::size_t k = 0; k < names.size(); ++k) {
     if (const auto word = channel_among(names[k]); word && !taken[k]) found[word->channel].emplace_back(k, word->word);
   }
-  for (const Channel channel : {Channel::current, Channel::voltage, Channel::position, Channel::oil_temperature}) {
+  for (const auto& [channel, columns] : found) {
     const bool of_coils = (channel == Channel::current && known(Channel::current_a)) ||
                           (channel == Channel::voltage && known(Channel::voltage_a));
-    if (known(channel) || of_coils || found[channel].size() != 1) continue;
-    const auto& [column, word] = found[channel].front();
+    if (channel == Channel::time || known(channel) || of_coils || columns.size() != 1) continue;
+    const auto& [column, word] = columns.front();
     out.map.sources.emplace(channel, ChannelSource{contents.columns[column], names[column].unit, 1.0, 0.0, {}});
     out.by_word.emplace(channel, word);
   }

@@ -13,8 +13,8 @@ struct Proposal {
   ChannelMap map;
   /// Columns that could be a channel of the map as well as the one that is proposed, in the file's order.
   std::map<Channel, std::vector<std::string>> as_well{};
-  /// Of current, voltage, position and oil temperature, where no column is called by them alone: the word of the only
-  /// one whose name holds it among others, such as "PLC.rPosition".
+  /// Of channels that no column is called by alone, but for the time: the word of the only one whose name holds it
+  /// among others, such as "PLC.rPosition".
   std::map<Channel, std::string> by_word{};
   /// The pressures of all four ports are named by their port ("pA"). Without one of them, those at P and B are taken
   /// for pressure_upstream and pressure_downstream.
