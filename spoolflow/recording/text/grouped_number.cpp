@@ -6,6 +6,11 @@
 #include "spoolflow/recording/files/decimal_number.hpp"
 
 namespace spoolflow::recording {
+namespace {
+
+constexpr char group_mark = '\'';
+
+}  // namespace
 
 Writing writing_of(std::string_view text, char mark) {
   constexpr std::string_view around = " \t\r\"-+";
@@ -25,11 +30,19 @@ Writing writing_of(std::string_view text, char mark) {
 }
 
 std::optional<GroupedNumber> without_groups(std::string_view cell) {
-  const std::size_t last = cell.find_last_of(".,");
-  if (last == std::string_view::npos) return std::nullopt;
-  const char point = cell[last], mark = point == ',' ? '.' : ',';
-  if (writing_of(cell.substr(0, last), mark) != Writing::grouped) return std::nullopt;
   std::string digits(cell);
+  bool only_groups = false;
+  for (const std::string_view mark : {"'", "\xE2\x80\x99", "\xE2\x80\xAF", "\xC2\xA0", "\xA0"}) {
+    for (std::size_t at = 0; (at = digits.find(mark, at)) != std::string::npos; ++at) {
+      digits.replace(at, mark.size(), 1, group_mark);
+      only_groups = true;
+    }
+  }
+  const std::size_t last = digits.find_last_of(".,");
+  const std::string_view whole = std::string_view(digits).substr(0, last);
+  const char point = last == std::string::npos ? '\0' : digits[last];
+  const char mark = only_groups ? group_mark : point == ',' ? '.' : ',';
+  if ((point == '\0' && !only_groups) || writing_of(whole, mark) != Writing::grouped) return std::nullopt;
   std::erase(digits, mark);
   double value = 0;
   if (read_number(digits, point, value) != Digits::number) return std::nullopt;

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -313,6 +314,13 @@ TEST(CsvReading, ReadsGroupedThousandsBesideADecimalSign) {
     EXPECT_THAT(column(run, Channel::current), ElementsAre(1.0, 0.9995)) << text;
     EXPECT_THAT(column(run, Channel::position), ElementsAre(DoubleNear(-1.9281e-3, 1e-15), 0.0)) << text;
   }
+  for (const char* mark : {"'", "\xE2\x80\x99", "\xE2\x80\xAF", "\xC2\xA0", "\xA0"}) {
+    const Recording run = read_csv(fmt::format("time_ms;position_um\n0;1{0}234\n1{0}000;-1{0}234,5\n", mark));
+    EXPECT_THAT(column(run, Channel::time), ElementsAre(0.0, 1.0)) << mark;
+    EXPECT_THAT(column(run, Channel::position),
+                ElementsAre(DoubleNear(1.234e-3, 1e-15), DoubleNear(-1.2345e-3, 1e-15)));
+  }
+  EXPECT_THAT(refused_csv("time_ms;position_um\n0;0,5\n1;1'23\n"), HasSubstr("'1'23' is not a number"));
   EXPECT_THAT(refused_csv("time_ms;position_um\n0;0,5\n1;0,5\n2;1,234.5\n"), HasSubstr("'1,234.5' is not a number"));
   EXPECT_THAT(refused_csv("time_ms;position_um\n0;0,5\n1;1.23,5\n"), HasSubstr("'1.23,5' is not a number"));
 }
