@@ -112,6 +112,15 @@ TEST_F(Inspect, GuessesFromOneWordOfANameBeforeItDoesFromTheNumbers) {
   EXPECT_THAT(two, HasSubstr("# position = { column = \"?\""));
 }
 
+TEST_F(Inspect, SaysThatTimesHaveTooFewDigits) {
+  std::string lines = "time_s,current_A,position_mm\n";
+  for (int k = 0; k < 1000; ++k) lines += fmt::format("{:.3f},1,1\n", 1e-4 * k + 1e-5);
+  write("rounded.csv", lines);
+  EXPECT_THAT(run("inspect rounded.csv").output,
+              HasSubstr("samples repeat the time stamp before them (9.9 have the same time on average: write the times "
+                        "with more digits)"));
+}
+
 TEST_F(Inspect, OfAScopeGuessesFromUnitsAndFromWhatFollowsTheCurrent) {
   std::string lines = "Time,Channel A,Channel B,Channel C\n(ms),(A),(V),(V)\n\n";
   const auto current_A = [](int k) { return 1.2 + 0.5 * std::sin(0.004 * k) + 0.2 * std::sin(0.031 * k); };

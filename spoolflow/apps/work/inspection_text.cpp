@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/apps/work/harmless_text.hpp"
+#include "spoolflow/apps/work/reading_notes.hpp"
 #include "spoolflow/recording/proposal.hpp"
 #include "spoolflow/units/conversion.hpp"
 
@@ -168,7 +169,7 @@ void add_text(std::string& out, const InspectedFile& inspected) {
         found.end_s - found.begin_s, found.rate_Hz);
     if (found.jitter > 0.01) add(out, ", time steps vary by up to {:.0f} %", 100 * found.jitter);
     add(out, "\n");
-    if (found.duplicate_times > 0) add(out, "{} samples repeat the time stamp before them\n", found.duplicate_times);
+    if (found.duplicate_times > 0) add(out, "{}\n", repeated_times_text(found.duplicate_times, found.samples));
     if (found.gap_count > 0) {
       add(out, "{} gaps in time", found.gap_count);
       for (const recording::Gap& gap : found.gaps)

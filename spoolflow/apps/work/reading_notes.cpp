@@ -4,12 +4,19 @@
 
 namespace spoolflow::apps {
 
+std::string repeated_times_text(std::uint64_t repeated, std::uint64_t samples) {
+  std::string out = fmt::format("{} samples repeat the time stamp before them", repeated);
+  if (2 * repeated >= samples && repeated < samples)
+    out += fmt::format(" ({:.3g} have the same time on average: write the times with more digits)",
+                       static_cast<double>(samples) / static_cast<double>(samples - repeated));
+  return out;
+}
+
 std::vector<std::string> notes_text(const recording::ReadNotes& notes, const std::string& file) {
   std::vector<std::string> out;
   if (notes.duplicate_times > 0) {
-    out.push_back(
-        fmt::format("{}: {} samples repeat the time stamp before them; each is estimated, with status time_fault", file,
-                    notes.duplicate_times));
+    out.push_back(fmt::format("{}: {}; each is estimated, with status time_fault", file,
+                              repeated_times_text(notes.duplicate_times, notes.rows)));
   }
   if (notes.missing_values > 0) {
     out.push_back(fmt::format("{}: {} values are missing; the estimate is held there, with status sample_missing", file,
