@@ -100,14 +100,22 @@ void PartitionWork::take_models() {
   }
 }
 
-/// The stream is made again where it is gone, and read from the beginning where it is not the one of before.
+/// It is made again where it is gone, but not at once: a server that deletes a large stream goes on with that behind
+/// its answer, and would take the files of the new one, which then keeps nothing.
+StreamPlace PartitionWork::stream_there() {
+  constexpr std::chrono::seconds made_again_after{5};
+  const auto there = parts_.nats.stream(parts_.settings.stream.name);
+  const Clock::time_point now = Clock::now();
+  if (there) gone_since_.reset();
+  if (there) return *there;
+  if (!gone_since_) gone_since_ = now;
+  if (now - *gone_since_ < made_again_after) throw TransportError("NATS: the stream is gone");
+  return parts_.nats.make_stream(parts_.settings.stream);
+}
+
+/// Read from the beginning where it is not the one of before.
 void PartitionWork::open_stream() {
-  StreamPlace there;
-  try {
-    there = parts_.nats.stream(parts_.settings.stream.name);
-  } catch (const TransportError&) {
-    there = parts_.nats.make_stream(parts_.settings.stream);
-  }
+  const StreamPlace there = stream_there();
   const bool same = there.created_ns == stream_.created_ns && stream_.sequence <= there.last;
   if (!same) stream_ = {there.created_ns, 0};
   puller_.emplace(parts_.nats.pull(parts_.settings.stream.name, fmt::format("spoolflow.block.{}.>", claim_.partition),

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <stop_token>
 #include <string>
@@ -63,6 +64,7 @@ class PartitionWork {
   void restore();
   void restart(const ValveRefused& why);
   [[nodiscard]] std::optional<Block> whole_block(const Message& message);
+  StreamPlace stream_there();
   void open_stream();
   bool fetch();
   void take(const Message& message);
@@ -91,8 +93,9 @@ class PartitionWork {
   int silent_readers_ = 0;  ///< in a row
   Subscription models_;
   StreamPosition stream_;
-  std::size_t uncommitted_ = 0;  ///< blocks
-  std::size_t early_bytes_ = 0;  ///< of all valves
+  std::optional<Clock::time_point> gone_since_{};  ///< the stream; nothing while it is there
+  std::size_t uncommitted_ = 0;                    ///< blocks
+  std::size_t early_bytes_ = 0;                    ///< of all valves
   Clock::time_point committed_ = Clock::now(), published_ = Clock::now();
 };
 

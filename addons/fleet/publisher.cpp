@@ -1,5 +1,6 @@
 #include "addons/fleet/publisher.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <utility>
@@ -50,6 +51,7 @@ void Publisher::run(const std::stop_token& stop) {
         was_connected_ = connected;
         look_for_new(database);
         if (connected) send(database);
+        connected ? report_standstill() : standstill_.away();
         reported.clear();
       }
     } catch (const live::StoreError& error) {  // a disk that is full, or a store that is held for too long
@@ -64,6 +66,23 @@ void Publisher::look_for_new(live::Database& database) {
     Delivery& at = valves_[one.valve];
     if (at.session() != one.session) at = Delivery(one.session, one.covered);
     at.found(one.number);
+  }
+}
+
+void Publisher::report_standstill() {
+  const auto waiting = std::ranges::count_if(valves_, [](const auto& one) { return one.second.waits(); });
+  switch (standstill_.look(waiting > 0, std::exchange(committed_, false), Clock::now())) {
+    case Standstill::News::begins:
+      report_(fmt::format(
+          "the fleet has committed nothing for {} s; blocks of {} valves wait and are kept; see `spoolflow fleet "
+          "--status` there: it shows whether workers have the partitions, and what the stream holds",
+          Standstill::patience.count(), waiting));
+      return;
+    case Standstill::News::ends:
+      report_("the fleet commits blocks again");
+      return;
+    case Standstill::News::none:
+      return;
   }
 }
 
@@ -83,7 +102,9 @@ void Publisher::take_coverage(const std::string& text) {
   while (lines >> id >> session >> number) {
     const auto found = valves_.find(id);
     if (found == valves_.end() || found->second.session() != session) continue;
-    if (found->second.covered(number, Clock::now())) engine_.covered(id, number);
+    if (!found->second.covered(number, Clock::now())) continue;
+    engine_.covered(id, number);
+    committed_ = true;
   }
 }
 

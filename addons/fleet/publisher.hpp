@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "addons/fleet/delivery.hpp"
+#include "addons/fleet/standstill.hpp"
 #include "addons/fleet/transport/nats.hpp"
 #include "addons/live/engine.hpp"
 
@@ -25,6 +26,7 @@ class Publisher {
   using Clock = std::chrono::steady_clock;
   void run(const std::stop_token& stop);
   void look_for_new(live::Database& database);
+  void report_standstill();
   void hear(Subscription& coverage, Subscription& asks);
   void take_coverage(const std::string& text);
   void answer(const std::string& ask);
@@ -43,6 +45,8 @@ class Publisher {
   };
   std::map<std::string, SentModel> models_;  ///< by hash
   bool was_connected_ = false;
+  bool committed_ = false;  ///< the fleet has said so since the last look
+  Standstill standstill_;
   std::jthread thread_;
 };
 

@@ -80,9 +80,12 @@ void status(const fleet::FleetSettings& settings) {
     print("NATS: no server can be reached\n");
     return;
   }
-  const fleet::StreamPlace stream = nats.stream(settings.stream.name);
-  print("stream {}: {} blocks, {:.1f} MB\n", settings.stream.name, stream.messages,
-        1e-6 * static_cast<double>(stream.bytes));
+  if (const auto stream = nats.stream(settings.stream.name)) {
+    print("stream {}: {} blocks, {:.1f} MB\n", settings.stream.name, stream->messages,
+          1e-6 * static_cast<double>(stream->bytes));
+  } else {
+    print("stream {}: there is none; a worker makes it within seconds\n", settings.stream.name);
+  }
 }
 
 void serve(fleet::FleetSettings settings, const std::string& file, const std::string& listen) {

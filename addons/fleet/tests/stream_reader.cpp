@@ -21,7 +21,7 @@ void fill(Connection& nats, const StreamSettings& settings, std::uint64_t messag
   for (std::uint64_t k = 1; k <= messages;) {
     if (nats.publish("spoolflow.block.1.hall", std::to_string(k))) ++k;
   }
-  while (nats.stream(settings.name).last < messages) std::this_thread::sleep_for(patience);
+  while (nats.stream(settings.name).value().last < messages) std::this_thread::sleep_for(patience);
   std::puts("filled");
   std::fflush(stdout);
 }

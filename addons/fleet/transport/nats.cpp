@@ -149,9 +149,11 @@ StreamPlace Connection::make_stream(const StreamSettings& settings) {
   return place_of(*made);
 }
 
-StreamPlace Connection::stream(const std::string& name) {
+std::optional<StreamPlace> Connection::stream(const std::string& name) {
   jsStreamInfo* info = nullptr;
-  check(js_GetStreamInfo(&info, open_handles()->stream.get(), name.c_str(), nullptr, nullptr), "stream " + name);
+  const natsStatus status = js_GetStreamInfo(&info, open_handles()->stream.get(), name.c_str(), nullptr, nullptr);
+  if (status == NATS_NOT_FOUND) return std::nullopt;
+  check(status, "stream " + name);
   const Handle<jsStreamInfo> found(info);
   return place_of(*found);
 }

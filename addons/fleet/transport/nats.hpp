@@ -63,8 +63,8 @@ class Connection {
 
   /// Makes the stream of all blocks where there is none, and gives it these settings. Throws TransportError.
   StreamPlace make_stream(const StreamSettings& settings);
-  /// Throws TransportError where it is not there or does not answer.
-  [[nodiscard]] StreamPlace stream(const std::string& name);
+  /// Nothing where there is none. Throws TransportError where no server answers.
+  [[nodiscard]] std::optional<StreamPlace> stream(const std::string& name);
   /// What the stream holds under `subject` from that sequence number on. `silent_before`: as of ReaderWatch. Throws
   /// TransportError.
   [[nodiscard]] Puller pull(const std::string& stream, const std::string& subject, std::uint64_t from,
