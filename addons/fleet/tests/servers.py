@@ -227,8 +227,15 @@ class Gate:
                 continue
             outer.settimeout(None)
             self.pairs.append((inner, outer))
-            for source, sink in ((inner, outer), (outer, inner)):
-                threading.Thread(target=self.carry, args=(source, sink), daemon=True).start()
+            threading.Thread(target=self.join, args=(inner, outer), daemon=True).start()
+
+    def join(self, inner, outer):
+        """Both ways, until either end is closed."""
+        with inner, outer:
+            back = threading.Thread(target=self.carry, args=(outer, inner), daemon=True)
+            back.start()
+            self.carry(inner, outer)
+            back.join()
 
     @staticmethod
     def carry(source, sink):
