@@ -33,7 +33,8 @@ class Live:
                 break
         assert self.port, "".join(self.said)
         # A full pipe would hold the program.
-        threading.Thread(target=lambda: self.said.extend(self.process.stderr), daemon=True).start()
+        self.listener = threading.Thread(target=lambda: self.said.extend(self.process.stderr), daemon=True)
+        self.listener.start()
 
     def heard(self):
         """What it said at standard error."""
@@ -45,6 +46,8 @@ class Live:
     def __exit__(self, *error):
         self.process.send_signal(signal.SIGTERM)
         assert self.process.wait(timeout=60) == 0
+        self.listener.join(60)
+        self.process.stderr.close()
 
     def ask(self, path, method="GET", body=None, headers=None, trust=None):
         """Status, headers and text of one request, with `trust` as the only trusted certificate."""
