@@ -50,8 +50,12 @@ void Publisher::run(const std::stop_token& stop) {
           report_(connected ? "connected to the fleet" : "the fleet cannot be reached; blocks are kept");
         was_connected_ = connected;
         look_for_new(database);
-        if (connected) send(database);
-        connected ? report_standstill() : standstill_.away();
+        if (connected) {
+          send(database);
+          report_standstill();
+        } else {
+          standstill_.away();
+        }
         reported.clear();
       }
     } catch (const live::StoreError& error) {  // a disk that is full, or a store that is held for too long
