@@ -60,6 +60,22 @@ void setup(const fleet::FleetSettings& settings) {
   print_text(fleet::nats_configuration(settings) + "\n" + fleet::postgresql_configuration());
 }
 
+/// Of servers that choose a leader an answer takes a while.
+std::string stream_text(fleet::Connection& nats, const std::string& name) {
+  constexpr int tries = 5;
+  constexpr std::chrono::milliseconds pause{500};
+  for (int k = 1;; ++k) {
+    try {
+      const auto stream = nats.stream(name);
+      return stream ? fmt::format("{} blocks, {:.1f} MB", stream->messages, 1e-6 * static_cast<double>(stream->bytes))
+                    : "there is none; a worker makes it within seconds";
+    } catch (const fleet::TransportError& error) {
+      if (k == tries) return error.what();
+    }
+    std::this_thread::sleep_for(pause);
+  }
+}
+
 void status(const fleet::FleetSettings& settings) {
   fleet::Session session(settings.connection, "spoolflow fleet");
   (void)fleet::read_settings(session);
@@ -80,12 +96,7 @@ void status(const fleet::FleetSettings& settings) {
     print("NATS: no server can be reached\n");
     return;
   }
-  if (const auto stream = nats.stream(settings.stream.name)) {
-    print("stream {}: {} blocks, {:.1f} MB\n", settings.stream.name, stream->messages,
-          1e-6 * static_cast<double>(stream->bytes));
-  } else {
-    print("stream {}: there is none; a worker makes it within seconds\n", settings.stream.name);
-  }
+  print("stream {}: {}\n", settings.stream.name, stream_text(nats, settings.stream.name));
 }
 
 void serve(fleet::FleetSettings settings, const std::string& file, const std::string& listen) {

@@ -157,9 +157,11 @@ class Faults(WithAFleet):
     def test_nothing_is_lost_or_taken_twice(self):
         for seed in SEEDS:
             with self.subTest(seed=seed):
-                self.once(random.Random(seed))
-                self.tearDown()
-                self.setUp()
+                try:
+                    self.once(random.Random(seed))
+                finally:
+                    self.tearDown()
+                    self.setUp()
 
     def once(self, chance):
         begin = time.monotonic()
