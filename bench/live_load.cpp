@@ -300,10 +300,10 @@ int main(int argc, char** argv) {
       } catch (const std::exception&) {  // the child was ended
       }
     });
+    fmt::print("page at http://127.0.0.1:{}\n", child.page);
+    std::fflush(stdout);
     std::jthread teller;
     if (seconds > 120) {
-      fmt::print("page at http://127.0.0.1:{}\n", child.page);
-      std::fflush(stdout);
       teller = std::jthread(
           [&](const std::stop_token& stop) { print_each_minute(child, folder / "s.sqlite", began_ns, stop); });
     }
