@@ -46,7 +46,7 @@ for (let lines = 0; Date.now() - began < 1000 * seconds;) {
   for (const one of tabs) {
     const cost = await one.cost();
     line += ` ${one.name}: ${cost.heap_MB.toFixed(1)} MB, ${cost.nodes} nodes, ${cost.busy.toFixed(2)} of a core;`;
-    const stale = await one.page.$$eval('.stale', (all) => all.filter((each) => each.checkVisibility()).map((each) => each.textContent));
+    const stale = await one.page.$$eval('.stale', (all) => all.filter((each) => each.checkVisibility()).map((each) => each.textContent).filter(Boolean));
     if (stale.length > 0) complaints.push(`${one.name} after ${passed_s.toFixed(0)} s: ${stale.join(' ')}`);
     if (passed_s >= settles_s && !settled.has(one)) settled.set(one, cost);
     one.last = cost;
