@@ -104,10 +104,11 @@ void PartitionWork::take_models() {
 /// its answer, and would take the files of the new one, which then keeps nothing.
 StreamPlace PartitionWork::stream_there() {
   constexpr std::chrono::seconds made_again_after{5};
-  const auto there = parts_.nats.stream(parts_.settings.stream.name);
+  if (const auto there = parts_.nats.stream(parts_.settings.stream.name)) {
+    gone_since_.reset();
+    return *there;
+  }
   const Clock::time_point now = Clock::now();
-  if (there) gone_since_.reset();
-  if (there) return *there;
   if (!gone_since_) gone_since_ = now;
   if (now - *gone_since_ < made_again_after) throw TransportError("NATS: the stream is gone");
   return parts_.nats.make_stream(parts_.settings.stream);

@@ -75,7 +75,7 @@ void Publisher::look_for_new(live::Database& database) {
 
 void Publisher::report_standstill() {
   const auto waiting = std::ranges::count_if(valves_, [](const auto& one) { return one.second.waits(); });
-  switch (standstill_.look(waiting > 0, std::exchange(committed_, false), Clock::now())) {
+  switch (standstill_.look(waiting > 0, Clock::now())) {
     case Standstill::News::begins:
       report_(fmt::format(
           "the fleet has committed nothing for {} s; blocks of {} valves wait and are kept; see `spoolflow fleet "
@@ -108,7 +108,7 @@ void Publisher::take_coverage(const std::string& text) {
     if (found == valves_.end() || found->second.session() != session) continue;
     if (!found->second.covered(number, Clock::now())) continue;
     engine_.covered(id, number);
-    committed_ = true;
+    standstill_.committed(Clock::now());
   }
 }
 

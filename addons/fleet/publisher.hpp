@@ -45,7 +45,6 @@ class Publisher {
   };
   std::map<std::string, SentModel> models_;  ///< by hash
   bool was_connected_ = false;
-  bool committed_ = false;  ///< the fleet has said so since the last look
   Standstill standstill_;
   std::jthread thread_;
 };

@@ -13,9 +13,10 @@ class Standstill {
   /// Far longer than a worker takes for a commit, a server to come back, or a stream to be made again.
   static constexpr std::chrono::seconds patience{60};
 
-  /// To be called again and again while the fleet can be reached. `committed`: something was since the last call.
-  [[nodiscard]] News look(bool blocks_wait, bool committed, Time now) {
-    if (!since_ || !blocks_wait || committed) since_ = now;
+  void committed(Time now) { since_ = now; }
+  /// To be called again and again while the fleet can be reached.
+  [[nodiscard]] News look(bool blocks_wait, Time now) {
+    if (!since_ || !blocks_wait) since_ = now;
     const bool stands = now - *since_ >= patience;
     if (stands == stands_) return News::none;
     stands_ = stands;

@@ -159,11 +159,11 @@ CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file,
             .several_times = true,
             .end_word = "EOF"};
   }
-  if (auto rigol = take_rigol_settings(rest, file)) {
-    return {.columns = std::move(rigol->columns),
+  if (RigolSettings rigol = take_rigol_settings(rest, file); rigol.lines > 0) {
+    return {.columns = std::move(rigol.columns),
             .header_bytes = beginning.size() - rest.size(),
-            .header_lines = rigol->lines,
-            .stated_time = rigol->time,
+            .header_lines = rigol.lines,
+            .stated_time = rigol.time,
             .counts_samples = true};
   }
   const LabviewSettings labview = take_labview_settings(rest);

@@ -190,11 +190,11 @@ double CsvTable::cell_value(std::string_view cell, std::size_t column, std::size
   const Digits digits = read_number(cell, point_, value);
   if (digits == Digits::number) return value;
   if (digits == Digits::empty) return missing;
-  if (const auto plain = without_groups(cell); plain && plain->may_be_of(point_)) return plain->value;
   if (const std::optional<ClockTime> clock = read_clock_time(cell)) {
     if (!clock_origin_) clock_origin_ = clock;
     return clock->day == 0 ? past_midnight(clock->since(*clock_origin_), slot) : clock->since(*clock_origin_);
   }
+  if (const auto plain = without_groups(cell); plain && plain->may_be_of(point_)) return plain->value;
   if (infinite_passes_ && digits == Digits::not_finite) {
     return cell.find('-') == std::string_view::npos ? infinity : -infinity;
   }

@@ -51,8 +51,9 @@ class CsvTable final : public SampleTable {
   bool plain_row(const char*& cursor, std::span<double* const> out, std::size_t row) const;
   [[nodiscard]] bool header_again(std::string_view line) const;
   bool careful_row(std::string_view line, std::span<double* const> out, std::size_t row);
-  /// A time of day that falls by more than half a day has passed midnight.
+  /// Of a row whose first cell is empty, or counts it.
   double stated_time(std::string_view first_cell, std::size_t slot);
+  /// A time of day that falls by more than half a day has passed midnight.
   double past_midnight(double time_s, std::size_t slot);
   double cell_value(std::string_view cell, std::size_t column, std::size_t slot);
   [[noreturn]] void refuse_length(std::size_t cells) const;

@@ -22,10 +22,11 @@ void DecimalSign::look_at(std::string_view lines, char delimiter) {
       if (found == columns_.end()) continue;
       const auto measured = split_cell(cell.text);
       const std::string_view number = measured ? measured->number : cell.text;
-      if (const auto plain = without_groups(number)) {
-        for (std::size_t m = 0; m < marks.size(); ++m) marked_[m] += plain->point == marks[m] ? 1 : 0;
+      if (!is_number(number)) {
+        const auto plain = without_groups(number);
+        for (std::size_t m = 0; m < marks.size() && plain; ++m) marked_[m] += plain->point == marks[m] ? 1 : 0;
+        continue;
       }
-      if (!is_number(number)) continue;
       for (std::size_t m = 0; m < marks.size(); ++m) {
         Cells& cells = found->second[m];
         const Writing writing = writing_of(number, marks[m]);

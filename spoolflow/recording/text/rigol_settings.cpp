@@ -9,13 +9,13 @@
 
 namespace spoolflow::recording {
 
-std::optional<RigolSettings> take_rigol_settings(std::string_view& text, const std::string& file) {
+RigolSettings take_rigol_settings(std::string_view& text, const std::string& file) {
   std::string_view rest = text;
   const std::vector<std::string_view> names = cells_of(take_line(rest), ',');
   const std::vector<std::string_view> units = cells_of(take_line(rest), ',');
   if (names.size() < 4 || names.front() != "X" || names.back() != "Increment" || units.empty() ||
       units.front() != "Sequence") {
-    return std::nullopt;
+    return {};
   }
   const std::size_t channels = names.size() - 2;
   RigolSettings out{2, {{"time", "time", "s"}}};
