@@ -1,5 +1,5 @@
 #!/bin/sh
-# ci/long.sh [SECONDS [UNITS]]: what takes too long for every day, over what ./test has built: clang-tidy, the rig and calibration under
+# ci/long.sh [SECONDS [UNITS]]: what takes too long for every day: clang-tidy, the rig and calibration under
 # sanitizers, RISC-V, `live` killed at fifty instants, its parsers fuzzed for SECONDS each (an hour where none are given), fleets
 # whose parts are killed, 500 valves at 1 kHz for as long, the page of 200, the playground's build, and UNITS of a type
 # (200 where none are given).
@@ -11,8 +11,8 @@ seconds=${1:-3600} units=${2:-200}
 status=0
 begin=$(date +%s)
 part() { echo "== $((($(date +%s) - begin) / 60)) min: $1"; }
-ci/packages.sh tests long
-ci/build.sh release live_test
+ci/build_tests.sh
+ci/packages.sh long
 ci/build.sh release benchmarks
 ci/build.sh sanitize all -DSPOOLFLOW_SANITIZE_ALL=ON
 part "clang-tidy, and tests under sanitizers that read nothing foreign"
