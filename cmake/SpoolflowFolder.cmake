@@ -95,15 +95,18 @@ function(spoolflow_from_plain_build target)
   add_library(${target} STATIC IMPORTED GLOBAL)
   set_target_properties(${target} PROPERTIES IMPORTED_LOCATION ${SPOOLFLOW_PLAIN_BUILD}/${place}/lib${target}.a)
   target_link_libraries(${target} INTERFACE spoolflow_settings ${ARGN})
+  if(SPOOLFLOW_TOML_LIBRARY AND "tomlplusplus::tomlplusplus" IN_LIST ARGN)
+    target_link_libraries(${target} INTERFACE ${SPOOLFLOW_TOML_LIBRARY})
+  endif()
 endfunction()
 
-# spoolflow_folder(NAME [TEXT|LIGHT|FAST] [JOINED group] [LINKS target…] [PRIVATE_LINKS target…] [APART file…])
+# spoolflow_folder(NAME [TEXT|LIGHT|FAST] [TRUSTED] [JOINED group] [LINKS target…] [PRIVATE_LINKS target…] [APART file…])
 # All *.cpp of the folder, but those that are compiled apart, become the library spoolflow_NAME, in addons/ addons_NAME; a folder
 # without *.cpp is header-only. A part has its folder's name before its own: rig/plant becomes spoolflow_rig_plant. TEXT, LIGHT and
-# FAST: see spoolflow_text and the like. JOINED: the library of the group compiles them (spoolflow_joined), and the
+# FAST: see spoolflow_text and the like. TRUSTED: see spoolflow_joined. JOINED: the library of the group compiles them (spoolflow_joined), and the
 # folder's own target says what the folder links.
 function(spoolflow_folder name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "TEXT;LIGHT;FAST" "JOINED" "LINKS;PRIVATE_LINKS;APART")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "TEXT;LIGHT;FAST;TRUSTED" "JOINED" "LINKS;PRIVATE_LINKS;APART")
   set(prefix spoolflow)
   if(CMAKE_CURRENT_SOURCE_DIR MATCHES "^${PROJECT_SOURCE_DIR}/addons/")
     set(prefix addons)
@@ -125,6 +128,8 @@ function(spoolflow_folder name)
     set_property(GLOBAL APPEND PROPERTY joined_${arg_JOINED}_sources ${sources})
     set_property(GLOBAL APPEND PROPERTY joined_${arg_JOINED}_links ${arg_LINKS})
     set_property(GLOBAL APPEND PROPERTY joined_${arg_JOINED}_private_links ${arg_PRIVATE_LINKS})
+  elseif(arg_TRUSTED AND SPOOLFLOW_TAKES_PLAIN_LIBRARIES)
+    spoolflow_from_plain_build(${target} ${arg_LINKS} ${arg_PRIVATE_LINKS})
   elseif(sources)
     add_library(${target} STATIC ${sources})
     target_link_libraries(${target} PUBLIC spoolflow_settings ${arg_LINKS} PRIVATE spoolflow_warnings ${arg_PRIVATE_LINKS})
@@ -147,11 +152,12 @@ function(spoolflow_folder name)
   endif()
 endfunction()
 
-# spoolflow_joined(GROUP [TEXT|LIGHT|FAST] [HARDENED] [READS_NOTHING] [OBJECTS count]): the library joined_GROUP of all folders that
+# spoolflow_joined(GROUP [TEXT|LIGHT|FAST] [HARDENED] [TRUSTED] [OBJECTS count]): the library joined_GROUP of all folders that
 # are JOINED to the group, behind them all. Folders that see the same headers take half the time to compile together. OBJECTS: in
-# so many pieces. READS_NOTHING: no byte of a file or of the network, so that ./test takes it without sanitizers; ci/long.sh does not.
+# so many pieces. TRUSTED: it takes no foreign file and no network apart, so that
+# ./test takes it from the build without sanitizers; ci/long.sh does not.
 function(spoolflow_joined group)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "TEXT;LIGHT;FAST;HARDENED;READS_NOTHING" "OBJECTS" "")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "TEXT;LIGHT;FAST;HARDENED;TRUSTED" "OBJECTS" "")
   foreach(list IN ITEMS folders sources links private_links)
     get_property(${list} GLOBAL PROPERTY joined_${group}_${list})
   endforeach()
@@ -160,7 +166,7 @@ function(spoolflow_joined group)
     list(REMOVE_ITEM ${list} ${folders})
   endforeach()
   set(target joined_${group})
-  if(arg_READS_NOTHING AND SPOOLFLOW_SANITIZE AND SPOOLFLOW_PLAIN_BUILD AND NOT SPOOLFLOW_SANITIZE_ALL)
+  if(arg_TRUSTED AND SPOOLFLOW_TAKES_PLAIN_LIBRARIES)
     spoolflow_from_plain_build(${target} ${links} ${private_links})
     return()
   endif()
@@ -196,6 +202,8 @@ function(spoolflow_tests folder)
   endif()
   add_executable(${folder}_test ${sources})
   target_link_libraries(${folder}_test PRIVATE spoolflow_warnings ${arg_LINKS} GTest::gtest GTest::gmock GTest::gtest_main)
+  set_target_properties(${folder}_test PROPERTIES UNITY_BUILD_BATCH_SIZE 40)
+  target_compile_options(${folder}_test PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-shadow>)  # names of other files of the object
   if(SPOOLFLOW_SANITIZE)
     return()  # ctest runs the whole program (spoolflow_sanitized_tests)
   endif()
@@ -213,7 +221,7 @@ function(spoolflow_tests folder)
 endfunction()
 
 # spoolflow_sanitized_tests(FOLDER [LONG] [WITHOUT filter]): the same program of the build with sanitizers, the whole of it as one
-# test, but for what takes minutes there (a filter of GoogleTest). LONG: it reads no byte of a file or of the network and runs no
+# test, but for what takes minutes there (a filter of GoogleTest). LONG: it takes no foreign file and no network apart and runs no
 # step of the sensor, so that ci/long.sh is often enough.
 function(spoolflow_sanitized_tests folder)
   cmake_parse_arguments(PARSE_ARGV 1 arg "LONG" "WITHOUT" "")
