@@ -1,8 +1,8 @@
 #!/bin/sh
-# ci/long.sh [SECONDS [UNITS]]: what takes too long for every day: clang-tidy, the tests under
-# sanitizers of what takes no foreign file apart and of live and fleet, the longest walks, FMUs from their sources, RISC-V, `live` killed at fifty instants, its parsers fuzzed for SECONDS each (an hour where none are given), fleets
-# whose parts are killed, 500 valves at 1 kHz for as long, the page of 200, the playground's build, and UNITS of a type
-# (200 where none are given).
+# ci/long.sh [SECONDS [UNITS]]: what takes too long for every day: clang-tidy; the tests under sanitizers of what takes no foreign
+# file apart and of live and fleet; the longest walks, FMUs from their sources, RISC-V; `live` killed at fifty instants, its
+# parsers fuzzed for SECONDS each (an hour where none are given), fleets whose parts are killed, 500 valves at 1 kHz for as long,
+# the page of 200, the playground's build, and UNITS of a type (200 where none are given).
 # Prints figures and, at the end, its time; the exit status covers clang-tidy, sanitizers, kills, fleets, fuzzing, the page, the
 # playground and the type's bands.
 set -eu
