@@ -203,7 +203,6 @@ function(spoolflow_tests folder)
   add_executable(${folder}_test ${sources})
   target_link_libraries(${folder}_test PRIVATE spoolflow_warnings ${arg_LINKS} GTest::gtest GTest::gmock GTest::gtest_main)
   set_target_properties(${folder}_test PROPERTIES UNITY_BUILD_BATCH_SIZE 40)
-  target_compile_options(${folder}_test PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-shadow>)  # names of other files of the object
   if(SPOOLFLOW_SANITIZE)
     return()  # ctest runs the whole program (spoolflow_sanitized_tests)
   endif()

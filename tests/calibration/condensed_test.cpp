@@ -25,8 +25,8 @@ TEST(Spring, IsFreeOfFrictionWhateverTheSpeedsHoldsAndNoise) {
   const auto recording = axial_force_recording({{.opening_speed = 120e-6, .closing_speed = 400e-6, .hold_samples = 700},
                                                 {.opening_speed = 60e-6, .closing_speed = 90e-6, .hold_samples = 3}},
                                                3e-6);
-  const SpringFit fit = fit_spring(recording, stroke_m);
-  for (double x = 0; x <= stroke_m; x += 0.1e-3) {
+  const SpringFit fit = fit_spring(recording, bench_stroke_m);
+  for (double x = 0; x <= bench_stroke_m; x += 0.1e-3) {
     EXPECT_NEAR(fit.spring.at(x).value, spring_N(x), 0.03) << x;  // 3 um of position noise are 0.04 N a sample
   }
   EXPECT_NEAR(fit.friction_half_width_N[10], 2.0, 0.03);
@@ -36,17 +36,17 @@ TEST(Spring, IsFreeOfFrictionWhateverTheSpeedsHoldsAndNoise) {
 TEST(Spring, WithOneDirectionOnlyIsRefusedWithTheDirectionThatIsMissing) {
   const auto recording = axial_force_recording({{.with_closing = false}}, 0);
   EXPECT_THAT(
-      [&] { (void)fit_spring(recording, stroke_m); },
+      [&] { (void)fit_spring(recording, bench_stroke_m); },
       ::testing::ThrowsMessage<CalibrationError>(AllOf(HasSubstr("axial.csv"), HasSubstr("no closing stroke"))));
 }
 
 TEST(MagneticForce, FollowsTheHeldCurrentsInAnyOrderWithSeveralStrokesALevel) {
   std::vector<Stroke> shuffled{{2.4}, {0.8}, {0.4}, {2.0}, {0.8, 200e-6, 70e-6}, {1.6}, {1.2}};
   for (Stroke& stroke : shuffled) stroke.to_m = 2.5e-3;
-  const MagneticForceFit fit = fit_magnetic_force(solenoid_recording(shuffled, 2e-6), stroke_m);
+  const MagneticForceFit fit = fit_magnetic_force(solenoid_recording(shuffled, 2e-6), bench_stroke_m);
   ASSERT_EQ(fit.loops.size(), 6U);
   for (const double i : {0.4, 0.8, 1.2, 1.6, 2.0, 2.4}) {
-    for (double x = 0; x <= stroke_m; x += 0.3e-3) {
+    for (double x = 0; x <= bench_stroke_m; x += 0.3e-3) {
       EXPECT_NEAR(fit.magnetic_force.at(i, x).value, magnetic_N(i, x), 0.12) << i << " A, " << x << " m";
     }
   }
@@ -58,9 +58,9 @@ TEST(MagneticForce, FollowsTheHeldCurrentsInAnyOrderWithSeveralStrokesALevel) {
 TEST(MagneticForce, NamesTheCurrentAtWhichADirectionIsMissing) {
   std::vector<Stroke> strokes = currents;
   strokes[2].with_closing = false;
-  strokes[3].from_m = stroke_m - 1e-6;  // the next level begins open and closes
+  strokes[3].from_m = bench_stroke_m - 1e-6;  // the next level begins open and closes
   strokes[3].opening_speed = 1;
-  EXPECT_THAT([&] { (void)fit_magnetic_force(solenoid_recording(strokes, 0), stroke_m); },
+  EXPECT_THAT([&] { (void)fit_magnetic_force(solenoid_recording(strokes, 0), bench_stroke_m); },
               ::testing::ThrowsMessage<CalibrationError>(
                   AllOf(HasSubstr("coil current 1.2 A"), HasSubstr("no closing stroke"))));
 }
@@ -69,7 +69,7 @@ TEST(MagneticForce, NamesTheGapWhereALevelIsAbsentFromAnEvenRow) {
   std::vector<Stroke> strokes = currents;
   strokes.erase(strokes.begin() + 2);
   EXPECT_THAT(
-      [&] { (void)fit_magnetic_force(solenoid_recording(strokes, 0), stroke_m); },
+      [&] { (void)fit_magnetic_force(solenoid_recording(strokes, 0), bench_stroke_m); },
       ::testing::ThrowsMessage<CalibrationError>(AllOf(HasSubstr("0.8 A"), HasSubstr("1.6 A"), HasSubstr("absent"))));
 }
 
@@ -77,19 +77,19 @@ TEST(AxialForce, NamesThePositionsThatALevelDoesNotCover) {
   std::vector<Stroke> strokes = pressures;
   strokes[4].to_m = 1.8e-3;
   EXPECT_THAT(
-      [&] { (void)fit_axial_force(axial_force_recording(strokes, 0), stroke_m); },
+      [&] { (void)fit_axial_force(axial_force_recording(strokes, 0), bench_stroke_m); },
       ::testing::ThrowsMessage<CalibrationError>(AllOf(HasSubstr("40 bar"), HasSubstr("to 2.400 mm are not covered"))));
 }
 
 TEST(FlowRate, InvertsTheFlowForceMapItWasMadeFrom) {
-  const SpringFit spring = fit_spring(axial_force_recording({{}}, 0), stroke_m);
-  const AxialForceFit axial = fit_axial_force(axial_force_recording(pressures, 1e-6), stroke_m);
+  const SpringFit spring = fit_spring(axial_force_recording({{}}, 0), bench_stroke_m);
+  const AxialForceFit axial = fit_axial_force(axial_force_recording(pressures, 1e-6), bench_stroke_m);
   const auto columns = flow_force_columns(axial.loops, spring.spring);
   const sensor::FlowRate<double> flow_rate = invert_flow_force(columns, 0.05);
-  for (double x = 0.4e-3; x <= stroke_m; x += 0.25e-3) {
+  for (double x = 0.4e-3; x <= bench_stroke_m; x += 0.25e-3) {
     for (const double p : {7e5, 15e5, 33e5, 66e5}) {
       const auto found = flow_rate.at(flow_force_N(x, p), x);
-      EXPECT_NEAR(found.flow_m3_per_s, flow_m3_per_s(x, p), 0.01 * flow_m3_per_s(stroke_m, 70e5))
+      EXPECT_NEAR(found.flow_m3_per_s, flow_m3_per_s(x, p), 0.01 * flow_m3_per_s(bench_stroke_m, 70e5))
           << x << " m, " << p << " Pa";
       EXPECT_NEAR(found.pressure_difference_Pa, p, 0.04 * p + 1e4);
       EXPECT_TRUE(found.inside);
@@ -100,8 +100,8 @@ TEST(FlowRate, InvertsTheFlowForceMapItWasMadeFrom) {
 }
 
 TEST(Uniqueness, IsBlindOnlyBelowTheOpening) {
-  const SpringFit spring = fit_spring(axial_force_recording({{}}, 0), stroke_m);
-  const AxialForceFit axial = fit_axial_force(axial_force_recording(pressures, 0), stroke_m);
+  const SpringFit spring = fit_spring(axial_force_recording({{}}, 0), bench_stroke_m);
+  const AxialForceFit axial = fit_axial_force(axial_force_recording(pressures, 0), bench_stroke_m);
   const model::Uniqueness found = check_uniqueness(flow_force_columns(axial.loops, spring.spring), 0.1);
   EXPECT_NEAR(found.blind_below_m, 0.2e-3, 0.06e-3);
   EXPECT_TRUE(found.ambiguous_at_m.empty());
@@ -123,7 +123,7 @@ TEST(Condensed, RecoversTheFlowOfAValveWithoutFrictionFromCurrentAndPosition) {
   const auto axial = axial_force_recording(pressures, 1e-6);
   AxialForceMaps maps;
   maps.joined = {&axial};
-  const auto found = calibrate_condensed({spring, solenoid, maps}, {"synthetic", 80 / 60000.0, stroke_m, "b"});
+  const auto found = calibrate_condensed({spring, solenoid, maps}, {"synthetic", 80 / 60000.0, bench_stroke_m, "b"});
   const auto tables = sensor::laid_out(found.condensed.parameters);
   sensor::CondensedState<double> state;
   for (double x = 0.5e-3; x < 2.3e-3; x += 0.2e-3) {

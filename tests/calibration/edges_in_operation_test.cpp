@@ -10,11 +10,11 @@ namespace {
 
 using recording::Channel;
 
-const model::Valve valve_at_work{"closed form", 60 / 60000.0, stroke_m, "b"};
+const model::Valve valve_at_work{"closed form", 60 / 60000.0, bench_stroke_m, "b"};
 
 /// The path at work behind a cylinder, 50 bar over it, the spool to and fro on the side of that sign.
 recording::Recording at_work(const ClosedFormEdge& inlet, const ClosedFormEdge& outlet, double k, double sign,
-                             double to_m = stroke_m) {
+                             double to_m = bench_stroke_m) {
   const Drive motion = drive({{.to_m = to_m}}, 0);
   recording::Recording out;
   out.file = "work.csv";

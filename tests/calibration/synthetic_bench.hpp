@@ -9,7 +9,7 @@
 
 namespace spoolflow::calibration {
 
-inline constexpr double stroke_m = 2.4e-3;
+inline constexpr double bench_stroke_m = 2.4e-3;
 
 /// One to-and-fro at a held level. Speeds in m/s, holds in samples at either end.
 struct Stroke {
@@ -17,7 +17,7 @@ struct Stroke {
   double opening_speed = 120e-6;
   double closing_speed = 120e-6;
   double from_m = 0;
-  double to_m = stroke_m;
+  double to_m = bench_stroke_m;
   int hold_samples = 50;
   bool with_closing = true;
 };

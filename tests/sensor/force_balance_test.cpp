@@ -10,7 +10,7 @@ namespace spoolflow::sensor {
 namespace {
 
 constexpr double opened_m = 1.2e-3;
-constexpr double true_Pa = 60e5;
+constexpr double loaded_Pa = 60e5;
 constexpr double armature_sliding_N = 1.1;
 
 /// A spool on which `friction_N` acts, taken for one with another pressure difference by `wrong_Pa`.
@@ -19,10 +19,10 @@ struct Balance {
     point.position_m = opened_m;
     ActuatorEstimate<double> actuator{};
     actuator.magnetic_force_N =
-        ClosedFormValve::spring_N(opened_m) + ClosedFormValve::flow_force_N(opened_m, true_Pa) + friction_N;
+        ClosedFormValve::spring_N(opened_m) + ClosedFormValve::flow_force_N(opened_m, loaded_Pa) + friction_N;
     actuator.friction_half_width_N = armature_sliding_N;
     actuator.uncertainty_N = 0.2;
-    const EdgePoint<double> edge = valve.edge.at(ClosedFormValve::drift_free_K, true_Pa + wrong_Pa, opened_m);
+    const EdgePoint<double> edge = valve.edge.at(ClosedFormValve::drift_free_K, loaded_Pa + wrong_Pa, opened_m);
     return balance_forces(valve, {contacts, swing}, {actuator, valve.spring.at(opened_m).value, edge, 1.0}, point,
                           Dither<double>{}, {false, {true, 1e-3}, 0.0, 1e-3});
   }
@@ -56,7 +56,7 @@ TEST(ForceBalance, HasTheInnovationOfFlowForceAndFrictionWhereTheSpoolSlidesAtAW
   for (const double direction : {1.0, -1.0}) {
     const PositionPoint<double> point = moving(direction > 0 ? Motion::opening : Motion::closing, direction);
     for (const double wrong_Pa : {0.0, 6e5, -6e5}) {
-      const ForceBalance<double> balance = Balance{}.of(point, direction * sliding_friction_N(true_Pa), wrong_Pa);
+      const ForceBalance<double> balance = Balance{}.of(point, direction * sliding_friction_N(loaded_Pa), wrong_Pa);
       EXPECT_TRUE(balance.sliding);
       // Too much pressure means too much flow force, which closes, and too much friction, which hinders the motion.
       const double slope = ClosedFormValve::flow_force_per_pressure(opened_m) + direction * friction_per_pressure;
@@ -68,7 +68,7 @@ TEST(ForceBalance, HasTheInnovationOfFlowForceAndFrictionWhereTheSpoolSlidesAtAW
 TEST(ForceBalance, KeepsFrictionAtRestWithinWhatTheContactsHold) {
   for (const double wrong_Pa : {20e5, -20e5}) {
     Balance spool;
-    const ForceBalance<double> balance = spool.of(resting(), 0.5 * sliding_friction_N(true_Pa), wrong_Pa);
+    const ForceBalance<double> balance = spool.of(resting(), 0.5 * sliding_friction_N(loaded_Pa), wrong_Pa);
     EXPECT_FALSE(balance.sliding);
     EXPECT_LE(balance.resting.lower_N, balance.friction_N);
     EXPECT_LE(balance.friction_N, balance.resting.upper_N);

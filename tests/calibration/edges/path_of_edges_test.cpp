@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 SpringFit unloaded_spring() {
-  return fit_spring(axial_force_recording({{}}, 0), stroke_m);
+  return fit_spring(axial_force_recording({{}}, 0), bench_stroke_m);
 }
 
 /// The sensor's maps of a path whose edges were measured one at a time.
@@ -28,7 +28,8 @@ MeteringEdgeFit one_edge_at_a_time(const ClosedFormEdge& inlet, const ClosedForm
   maps.outlet = {&of_outlet};
   maps.outlet_flow_ratio = k;
   const SpringFit spring = unloaded_spring();
-  return fit_metering_edge(fit_path(maps, spring.spring, stroke_m).path, spring.spring, spring.friction_half_width_N);
+  return fit_metering_edge(fit_path(maps, spring.spring, bench_stroke_m).path, spring.spring,
+                           spring.friction_half_width_N);
 }
 
 AxialForceMaps joined_maps(const recording::Recording& recording, double k) {
@@ -40,7 +41,7 @@ AxialForceMaps joined_maps(const recording::Recording& recording, double k) {
 
 MeteringEdgeFit joined(const recording::Recording& recording, double k) {
   const SpringFit spring = unloaded_spring();
-  return fit_metering_edge(fit_path(joined_maps(recording, k), spring.spring, stroke_m).path, spring.spring,
+  return fit_metering_edge(fit_path(joined_maps(recording, k), spring.spring, bench_stroke_m).path, spring.spring,
                            spring.friction_half_width_N);
 }
 
@@ -81,17 +82,17 @@ TEST(PathOfEdges, ShowsWhatOfThePressureDifferenceLiesOverTheInlet) {
     maps.inlet = {&of_inlet};
     maps.outlet = {&of_outlet};
     maps.outlet_flow_ratio = k;
-    const sensor::InletShare<double> apart = fit_path(maps, spring.spring, stroke_m).inlet;
+    const sensor::InletShare<double> apart = fit_path(maps, spring.spring, bench_stroke_m).inlet;
     EXPECT_NEAR(apart.share, 0.36 / (0.36 + k * k), 1e-3) << k;  // the outlet's conductance is 0.6 of the inlet's
     EXPECT_NEAR(apart.range, 0.02, 1e-9) << k;
     // Joined, only operation shows the ratio.
-    const sensor::InletShare<double> assumed = fit_path(joined_maps(of_inlet, k), spring.spring, stroke_m).inlet;
+    const sensor::InletShare<double> assumed = fit_path(joined_maps(of_inlet, k), spring.spring, bench_stroke_m).inlet;
     EXPECT_EQ(assumed.share, 0.5) << k;
     EXPECT_EQ(assumed.range, 0.25) << k;
   }
   AxialForceMaps maps = joined_maps(of_inlet, 0.6);
   maps.edge_ratio = EdgeRatio{0.6, 0.5, 0.7};
-  const sensor::InletShare<double> inlet = fit_path(maps, spring.spring, stroke_m).inlet;
+  const sensor::InletShare<double> inlet = fit_path(maps, spring.spring, bench_stroke_m).inlet;
   EXPECT_NEAR(inlet.share, 0.5, 1e-9);
   EXPECT_NEAR(inlet.range, 0.5 - 0.25 / (0.25 + 0.36), 1e-9);
 }
@@ -159,8 +160,8 @@ TEST(PathOfEdges, WhoseProportionOperationShowedIsThatUnderTheCylinder) {
   AxialForceMaps maps = joined_maps(both, 0.6);
   maps.edge_ratio = EdgeRatio{0.5, 0.48, 0.52};
   const SpringFit spring = unloaded_spring();
-  const MeteringEdgeFit fit =
-      fit_metering_edge(fit_path(maps, spring.spring, stroke_m).path, spring.spring, spring.friction_half_width_N);
+  const MeteringEdgeFit fit = fit_metering_edge(fit_path(maps, spring.spring, bench_stroke_m).path, spring.spring,
+                                                spring.friction_half_width_N);
   const EdgeReading known = reading_of(wide, cut, 0.6, 1.6e-3, 50e5);
   const auto found = fit.edge.at(warm_K, 50e5, 1.6e-3);
   EXPECT_NEAR(found.conductance * std::sqrt(50e5) / known.flow_m3_per_s, 1, 2e-3);
@@ -187,11 +188,11 @@ TEST(PathOfEdges, IsRefusedWithTheFileWhoseOilTemperatureTheOtherEdgeLacks) {
   maps.inlet = {&warm, &cold};
   maps.outlet = {&other};
   const SpringFit spring = unloaded_spring();
-  EXPECT_THAT([&] { (void)fit_path(maps, spring.spring, stroke_m); },
+  EXPECT_THAT([&] { (void)fit_path(maps, spring.spring, bench_stroke_m); },
               ThrowsMessage<CalibrationError>(
                   AllOf(HasSubstr("PB_30.csv: edge measured at 30.0 degC"), HasSubstr("AT_50.csv at 53.0 degC"))));
   maps.inlet = {&warm};
-  const PathFit fit = fit_path(maps, spring.spring, stroke_m);
+  const PathFit fit = fit_path(maps, spring.spring, bench_stroke_m);
   ASSERT_EQ(fit.path.size(), 1U);
   EXPECT_NEAR(fit.path.front().oil_temperature_K, warm_K + 1.5, 1e-6);
 }
@@ -204,7 +205,7 @@ TEST(PathOfEdges, WhoseMeterWasTurnedRoundWithTheHosesIsRefusedByFile) {
   maps.inlet = {&of_inlet};
   maps.outlet = {&of_outlet};
   const SpringFit spring = unloaded_spring();
-  EXPECT_THAT([&] { (void)fit_path(maps, spring.spring, stroke_m); },
+  EXPECT_THAT([&] { (void)fit_path(maps, spring.spring, bench_stroke_m); },
               ThrowsMessage<CalibrationError>(
                   AllOf(HasSubstr("AT.csv: -52.39 L/min"), HasSubstr("flow through the measured edge is > 0"))));
 }

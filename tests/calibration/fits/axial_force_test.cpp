@@ -10,7 +10,7 @@ namespace spoolflow::calibration {
 namespace {
 
 using recording::Channel;
-constexpr double stroke_m = 2.4e-3;
+constexpr double bench_stroke_m = 2.4e-3;
 constexpr double dry_friction_N = 6;
 
 /// Springs and flow force [N].
@@ -39,17 +39,17 @@ recording::Recording bench(double breakaway_N) {
   };
   for (const double pressure_difference_Pa : {10e5, 40e5, 70e5}) {
     for (const double way : {1.0, -1.0}) {
-      const double from_m = way > 0 ? 0 : stroke_m;
+      const double from_m = way > 0 ? 0 : bench_stroke_m;
       for (int k = 0; k <= 1000; ++k)
-        put(from_m + way * stroke_m * k / 1000, way, stroke_m * k / 1000, pressure_difference_Pa);
-      for (int k = 0; k < 100; ++k) put(stroke_m - from_m, way, stroke_m, pressure_difference_Pa);
+        put(from_m + way * bench_stroke_m * k / 1000, way, bench_stroke_m * k / 1000, pressure_difference_Pa);
+      for (int k = 0; k < 100; ++k) put(bench_stroke_m - from_m, way, bench_stroke_m, pressure_difference_Pa);
     }
   }
   return out;
 }
 
 TEST(AxialForce, OfASpoolThatBreaksAwayAfterItsRestsIsThatOfOneThatSlides) {
-  const AxialForceFit fit = fit_axial_force(bench(8), stroke_m);
+  const AxialForceFit fit = fit_axial_force(bench(8), bench_stroke_m);
   ASSERT_EQ(fit.loops.size(), 3U);
   for (const model::AxialForceLoop& loop : fit.loops) {
     for (std::size_t k = 0; k < loop.position_m.size(); ++k) {
