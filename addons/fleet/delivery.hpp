@@ -22,8 +22,8 @@ class Delivery {
   Delivery(std::uint64_t session, std::uint64_t covered) : session_(session), covered_(covered), sent_(covered) {}
 
   [[nodiscard]] std::uint64_t session() const { return session_; }
-  /// Whether the fleet has not committed all that the store has.
-  [[nodiscard]] bool waits() const { return newest_ > covered_; }
+  /// Blocks of the store that the fleet has not committed.
+  [[nodiscard]] std::uint64_t waiting() const { return newest_ > covered_ ? newest_ - covered_ : 0; }
   /// The newest block that the store has.
   void found(std::uint64_t newest) { newest_ = newest; }
   [[nodiscard]] Due due(Time now);

@@ -21,11 +21,14 @@ using std::chrono::milliseconds;
 /// The store is looked at, and a model sent again, so often.
 constexpr milliseconds look_every{100}, model_every{500};
 
+constexpr const char* unreachable = "the fleet cannot be reached; blocks are kept";
+
 }  // namespace
 
 Publisher::Publisher(live::Engine& engine, std::function<void(const std::string&)> report)
     : engine_(engine),
       report_(std::move(report)),
+      output_(engine.outputs().add("fleet")),
       nats_(access_of(engine.site().fleet.servers, engine.site().fleet.login), engine.site().fleet.site) {
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
@@ -46,21 +49,19 @@ void Publisher::run(const std::stop_token& stop) {
       while (!stop.stop_requested() && engine_.store_view().mendings == mendings) {
         hear(coverage, asks);
         const bool connected = nats_.connected();
-        if (connected != was_connected_)
-          report_(connected ? "connected to the fleet" : "the fleet cannot be reached; blocks are kept");
-        was_connected_ = connected;
+        report_connection(connected);
         look_for_new(database);
         if (connected) {
           send(database);
           report_standstill();
-        } else {
-          standstill_.away();
         }
+        output_->set_trouble(connected ? standing_ : unreachable);
         reported.clear();
       }
     } catch (const live::StoreError& error) {  // a disk that is full, or a store that is held for too long
       if (reported != error.what()) report_(error.what());
       reported = error.what();
+      output_->set_trouble(reported);
     }
   }
 }
@@ -71,18 +72,33 @@ void Publisher::look_for_new(live::Database& database) {
     if (at.session() != one.session) at = Delivery(one.session, one.covered);
     at.found(one.number);
   }
+  std::uint64_t waiting = 0;
+  for (const auto& [valve, at] : valves_) waiting += at.waiting();
+  output_->waiting = waiting;
+}
+
+void Publisher::report_connection(bool connected) {
+  if (!connected) {
+    standstill_.away();
+    standing_.clear();
+  }
+  if (connected == (output_->connected > 0)) return;
+  output_->connected = connected ? 1 : 0;
+  report_(connected ? "connected to the fleet" : unreachable);
 }
 
 void Publisher::report_standstill() {
-  const auto waiting = std::ranges::count_if(valves_, [](const auto& one) { return one.second.waits(); });
+  const auto waiting = std::ranges::count_if(valves_, [](const auto& one) { return one.second.waiting() > 0; });
   switch (standstill_.look(waiting > 0, Clock::now())) {
     case Standstill::News::begins:
-      report_(fmt::format(
+      standing_ = fmt::format(
           "the fleet has committed nothing for {} s; blocks of {} valves wait and are kept; see `spoolflow fleet "
           "--status` there: it shows whether workers have the partitions, and what the stream holds",
-          Standstill::patience.count(), waiting));
+          Standstill::patience.count(), waiting);
+      report_(standing_);
       return;
     case Standstill::News::ends:
+      standing_.clear();
       report_("the fleet commits blocks again");
       return;
     case Standstill::News::none:
@@ -107,6 +123,7 @@ void Publisher::take_coverage(const std::string& text) {
     const auto found = valves_.find(id);
     if (found == valves_.end() || found->second.session() != session) continue;
     if (!found->second.covered(number, Clock::now())) continue;
+    ++output_->received;
     engine_.covered(id, number);
     standstill_.committed(Clock::now());
   }
@@ -168,6 +185,7 @@ void Publisher::send(live::Database& database, const std::string& valve, Deliver
     }
     if (!nats_.publish(subject, one.bytes)) return;
     at.sent(one.number, Clock::now());
+    ++output_->sent;
     before = one.number;
   }
 }

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <thread>
 
@@ -26,6 +27,7 @@ class Publisher {
   using Clock = std::chrono::steady_clock;
   void run(const std::stop_token& stop);
   void look_for_new(live::Database& database);
+  void report_connection(bool connected);
   void report_standstill();
   void hear(Subscription& coverage, Subscription& asks);
   void take_coverage(const std::string& text);
@@ -36,6 +38,7 @@ class Publisher {
 
   live::Engine& engine_;
   std::function<void(const std::string&)> report_;
+  std::shared_ptr<live::Output> output_;  ///< of the site's page and metrics
   Connection nats_;
   std::map<std::string, Delivery> valves_;
   /// A model that was asked for, as it travels.
@@ -44,8 +47,8 @@ class Publisher {
     Clock::time_point sent{};
   };
   std::map<std::string, SentModel> models_;  ///< by hash
-  bool was_connected_ = false;
   Standstill standstill_;
+  std::string standing_;  ///< what it says of a standstill; empty: there is none
   std::jthread thread_;
 };
 

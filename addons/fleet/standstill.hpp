@@ -23,7 +23,10 @@ class Standstill {
     return stands ? News::begins : News::ends;
   }
   /// While it cannot be reached, nothing is to be expected.
-  void away() { since_.reset(); }
+  void away() {
+    since_.reset();
+    stands_ = false;
+  }
 
  private:
   std::optional<Time> since_;

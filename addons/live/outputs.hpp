@@ -1,5 +1,6 @@
 #pragma once
-/// How outputs beside the page fare (CAN, Modbus, MQTT): counted by their own threads, read by the page from any.
+/// How outputs beside the page fare (CAN, Modbus, MQTT, messages, the way to a fleet): counted by their own threads,
+/// read by the page from any.
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -10,11 +11,11 @@
 namespace spoolflow::live {
 
 struct OutputView {
-  std::string name;             ///< "can", "modbus", "mqtt"
-  std::uint64_t sent = 0;       ///< frames, answers or messages
+  std::string name;             ///< "can", "modbus", "mqtt", "fleet"
+  std::uint64_t sent = 0;       ///< frames, answers, messages or blocks
   std::uint64_t received = 0;   ///< frames or requests that were for this site
   std::uint64_t dropped = 0;    ///< what found no room, or nobody took
-  std::uint64_t waiting = 0;    ///< messages that are kept until they can be sent
+  std::uint64_t waiting = 0;    ///< messages that are kept until they can be sent; blocks that are not committed
   std::uint64_t connected = 0;  ///< peers at present
   std::string trouble;          ///< why nothing goes out at present; empty: none
 };

@@ -57,6 +57,8 @@ class MendedStore(WithAFleet):
                 valves = json.loads(live.ask("/api/v1/valves")[2])["valves"]
                 return all(one["samples"] == 1000 * SECONDS for one in valves) and outbox(self.folder)[0] == 0
             until(over, 120, "a site that has heard of all")
+            output = json.loads(live.ask("/api/v1/site")[2])["outputs"]["fleet"]
+            self.assertEqual((output["connected"], output["waiting"], output["trouble"]), (1, 0, ""))
             newest = outbox(self.folder)[1]
         for worker in fleet.workers:
             worker.end()

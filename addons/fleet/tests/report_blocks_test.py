@@ -56,6 +56,11 @@ class ReportBlocks(unittest.TestCase):
         with site(COMMAND, folder, "nats://127.0.0.1:1") as live:
             until(lambda: all(one["samples"] == 1000 * SECONDS for one in json.loads(live.ask("/api/v1/valves")[2])["valves"]),
                   60, "recordings that are worked on")
+            output = json.loads(live.ask("/api/v1/site")[2])["outputs"]["fleet"]
+            self.assertEqual((output["connected"], output["sent"]), (0, 0))
+            self.assertGreater(output["waiting"], SECONDS)
+            self.assertIn("cannot be reached", output["trouble"])
+            self.assertIn('\nspoolflow_output_failing{output="fleet"} 1\n', live.ask("/metrics")[2])
         found = []
         for valve in ("v0", "v1"):
             blocks = [read_block(block) for block in blocks_of(folder, valve)]

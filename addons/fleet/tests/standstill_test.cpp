@@ -29,6 +29,8 @@ TEST(Standstill, IsNoneWhileNothingWaitsOrTheFleetIsAway) {
   fleet.away();
   EXPECT_EQ(fleet.look(true, now += seconds(500)), News::none);
   EXPECT_EQ(fleet.look(true, now += seconds(60)), News::begins);
+  fleet.away();
+  EXPECT_EQ(fleet.look(true, now += seconds(500)), News::none) << "nothing was committed yet";
 }
 
 }  // namespace

@@ -56,13 +56,14 @@ std::string output_metrics(const Engine& engine) {
     for (const OutputView& one : outputs) out += fmt::format("{}{{output=\"{}\"}} {}\n", name, one.name, value(one));
   };
   if (outputs.empty()) return out;
-  family("spoolflow_output_sent_total", "counter", "Frames, answers or messages that went out.",
+  family("spoolflow_output_sent_total", "counter", "Frames, answers, messages or blocks that went out.",
          [](const OutputView& one) { return one.sent; });
   family("spoolflow_output_received_total", "counter", "Frames, requests or commands that came in.",
          [](const OutputView& one) { return one.received; });
   family("spoolflow_output_dropped_total", "counter", "What found no room or was given up.",
          [](const OutputView& one) { return one.dropped; });
-  family("spoolflow_output_waiting", "gauge", "Records that are kept until they can be sent.",
+  family("spoolflow_output_waiting", "gauge",
+         "Records that are kept until they can be sent; blocks until the fleet has committed them.",
          [](const OutputView& one) { return one.waiting; });
   family("spoolflow_output_failing", "gauge", "1 where nothing goes out at present.",
          [](const OutputView& one) { return one.trouble.empty() ? 0 : 1; });

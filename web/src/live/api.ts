@@ -110,6 +110,17 @@ export interface Stranger {
   last: string;
 }
 
+/** What goes out beside the page: to a bus, a broker, receivers of messages, a fleet. */
+export interface Output {
+  sent: number;
+  received: number;
+  dropped: number;
+  waiting: number;
+  connected: number;
+  /** Why nothing goes out; empty: it does. */
+  trouble: string;
+}
+
 export interface Site {
   valves: number;
   stalled: number;
@@ -125,6 +136,7 @@ export interface Site {
   /** The broker that samples come from. */
   mqtt_source: { broker: string; connected: boolean; messages: number; unknown_valve: number;
     unknown: (Stranger & { messages: number })[] } | null;
+  outputs: Record<string, Output>;
 }
 
 export interface Session {

@@ -1,9 +1,10 @@
 /** The site as a whole: totals, what they were over the last minutes, how each source fares, all alarms. */
 import { AlarmList } from './alarm_list';
-import { clock, figure, isOpen, severity, type LiveData, type Valve } from './api';
+import { clock, figure, isOpen, severity, type LiveData, type Output, type Valve } from './api';
 import { element, row, setText } from './element';
 
 const sourceColumns = ['valve', 'source', 'samples/s', 'age [s]', 'dropped', 'lost', 'repeated', 'unreadable', 'connections', 'trouble'];
+const outputColumns = ['output', 'sent', 'received', 'waiting', 'dropped', 'connections', 'trouble'];
 const strangerColumns = ['id', 'sender', 'first', 'last', 'times'];
 
 /** Each cell but the first has its column's name, which narrow screens show in front of it. */
@@ -55,6 +56,8 @@ export class SiteView {
   private readonly mended = element('p', 'stale');
   private readonly datagrams = element('p', 'kept');
   private readonly messages = element('p', 'kept');
+  private readonly outputRows = element('tbody', '');
+  private readonly outputs = element('section', '');
   private readonly unknown = element('tbody', '');
   private readonly strangers = element('section', '');
   private readonly rates = new Rates();
@@ -64,7 +67,9 @@ export class SiteView {
     const head = element('thead', '', row('th', ...sourceColumns));
     this.place.append(element('h2', '', 'Site'), element('div', 'tiles', ...Object.values(this.tiles).map((tile) => tile.place)),
                       this.kept, this.mended, this.datagrams, this.messages, element('h3', '', 'Sources'),
-                      element('div', 'wide', element('table', 'sources stacked', head, this.sources)), this.strangers);
+                      element('div', 'wide', element('table', 'sources stacked', head, this.sources)), this.outputs, this.strangers);
+    this.outputs.append(element('h3', '', 'Outputs'), element('div', 'wide', element('table', 'outputs stacked', element(
+      'thead', '', row('th', ...outputColumns)), this.outputRows)));
     this.strangers.append(element('h3', '', 'Samples of valves that the site does not know'), element('div', 'wide', element('table', 'unknown stacked', element(
       'thead', '', row('th', ...strangerColumns)), this.unknown)));
   }
@@ -88,12 +93,23 @@ export class SiteView {
     this.messages.hidden = mqtt === null;
     setText(this.messages, mqtt === null ? '' : `MQTT ${mqtt.broker}: ${mqtt.connected ? 'connected' : 'not connected'}, ` +
       `${mqtt.messages} messages, ${mqtt.unknown_valve} of unknown valves`);
+    this.showOutputs(site.outputs);
     const unknown = [...udp.unknown.map((one) => ({ ...one, pieces: one.datagrams })),
       ...(mqtt?.unknown ?? []).map((one) => ({ ...one, pieces: one.messages }))];
     this.strangers.hidden = unknown.length === 0;
     this.unknown.replaceChildren(...unknown.map((one) =>
       named(row('td', one.valve, one.sender, clock(one.first), clock(one.last), String(one.pieces)), strangerColumns)));
     for (const valve of valves) this.showSource(valve);
+  }
+
+  private showOutputs(outputs: Record<string, Output>): void {
+    this.outputs.hidden = Object.keys(outputs).length === 0;
+    this.outputRows.replaceChildren(...Object.entries(outputs).map(([name, of]) => {
+      const line = named(row('td', name, ...[of.sent, of.received, of.waiting, of.dropped, of.connected].map(String), of.trouble),
+                         outputColumns);
+      line.dataset['bad'] = String(of.trouble !== '');
+      return line;
+    }));
   }
 
   private showSource(valve: Valve): void {
