@@ -58,7 +58,7 @@ class ReportBlocks(unittest.TestCase):
                   60, "recordings that are worked on")
             output = json.loads(live.ask("/api/v1/site")[2])["outputs"]["fleet"]
             self.assertEqual((output["connected"], output["sent"]), (0, 0))
-            self.assertGreater(output["waiting"], SECONDS)
+            self.assertGreater(output["waiting"], 1)
             self.assertIn("cannot be reached", output["trouble"])
             self.assertIn('\nspoolflow_output_failing{output="fleet"} 1\n', live.ask("/metrics")[2])
         found = []
