@@ -36,7 +36,7 @@ class Faults(WithAFleet):
         self.done = False
 
     def tearDown(self):
-        if self.fleet and SHOWS and not self.done:
+        if self.fleet and not self.done:
             self.fleet.show_logs()
         super().tearDown()
 

@@ -71,13 +71,15 @@ class Fleet:
         self.workers.append(self.started(worker))
 
     def show_logs(self):
-        """What the workers have to say, and how the fleet looks."""
+        """What workers and NATS servers have to say, and how the fleet looks."""
         status = subprocess.run([self.command, "fleet", "--status", "fleet.toml"], cwd=self.folder, text=True,
                                 capture_output=True)
         print(status.returncode, status.stdout, status.stderr, flush=True)
-        for worker in self.workers:
-            with open(worker.log, encoding="utf-8") as log:
-                print(f"{worker.name}:\n{log.read()[-3000:]}", flush=True)
+        logs = {worker.name: worker.log for worker in self.workers}
+        logs |= {os.path.basename(server.folder): os.path.join(server.folder, "log") for server in self.nats}
+        for name, file in logs.items():
+            with open(file, encoding="utf-8", errors="replace") as log:
+                print(f"{name}:\n{log.read()[-6000:]}", flush=True)
 
     def stop(self):
         for one in reversed(self.running):
