@@ -8,13 +8,13 @@ namespace spoolflow::fleet {
 namespace {
 
 constexpr unsigned long long largest_model = 64'000'000;
-constexpr int zstd_level = 9;  // it is made seldom, and somebody waits for it
+constexpr int model_level = 9;  // it is made seldom, and somebody waits for it
 
 }  // namespace
 
 std::vector<std::uint8_t> pack_model(const std::string& text) {
   std::vector<std::uint8_t> out(ZSTD_compressBound(text.size()));
-  out.resize(ZSTD_compress(out.data(), out.size(), text.data(), text.size(), zstd_level));
+  out.resize(ZSTD_compress(out.data(), out.size(), text.data(), text.size(), model_level));
   return out;
 }
 

@@ -4,6 +4,9 @@
 #include <array>
 #include <fstream>
 #include <regex>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -28,14 +31,31 @@ void check_name(const fs::path& place, std::vector<std::string>& violations) {
   }
 }
 
+/// Whether one of the words stands in a line, as a word of its own.
+class WordRule {
+ public:
+  explicit WordRule(std::vector<std::string> words)
+      : words_(std::move(words)), whole_(fmt::format("\\b({})\\b", fmt::join(words_, "|"))) {}
+  [[nodiscard]] bool met_in(const std::string& line) const {  // regular expressions take a hundred times as long
+    const auto stands = [&](const std::string& word) { return line.find(word) != std::string::npos; };
+    return std::ranges::any_of(words_, stands) && std::regex_search(line, whole_);
+  }
+
+ private:
+  std::vector<std::string> words_;
+  std::regex whole_;
+};
+
 void check_content(const fs::path& file, const fs::path& place, std::vector<std::string>& violations) {
   // Written apart, so that this file does not find itself.
-  static const std::regex unfinished(
-      "\\b(TO"
-      "DO|FIX"
-      "ME|X"
-      "XX)\\b");
-  static const std::regex opens_output(R"(\b(std::ofstream|std::fstream|fopen)\b)");
+  static const WordRule unfinished{
+      {"TO"
+       "DO",
+       "FIX"
+       "ME",
+       "X"
+       "XX"}};
+  static const WordRule opens_output{{"std::ofstream", "std::fstream", "fopen"}};
   const std::string name = place.generic_string();
   static const std::regex extension(R"(gnu::|__attribute__|__builtin|__asm|#\s*pragma\s+(GCC|clang))");
   const bool standard = name.starts_with("spoolflow/sensor/") && name != "spoolflow/sensor/basis/compiler.hpp";
@@ -46,8 +66,8 @@ void check_content(const fs::path& file, const fs::path& place, std::vector<std:
   for (std::string line; std::getline(in, line);) {
     ++lines;
     once = once || line == "#pragma once";
-    if (std::regex_search(line, unfinished)) violations.push_back(fmt::format("{}:{}: unfinished work", name, lines));
-    if (!may_open && std::regex_search(line, opens_output)) {
+    if (unfinished.met_in(line)) violations.push_back(fmt::format("{}:{}: unfinished work", name, lines));
+    if (!may_open && opens_output.met_in(line)) {
       violations.push_back(fmt::format("{}:{}: only apps opens output files", name, lines));
     }
     if (standard && std::regex_search(line, extension)) {

@@ -156,7 +156,7 @@ TEST(CampaignFindings, DISABLED_NameEachErrorOfAnotherValve) {
 }
 
 TEST(CampaignFindings, NameAReferenceThatIsTwoSecondsLateInTheCampaignsRun) {
-  RigBenches valve = rig_benches("size_10", 32);
+  RigBenches valve = rig_benches("size_10", 31);
   EXPECT_THAT(all_texts(campaign_findings(valve.benches())), testing::IsEmpty());
   shift_by(valve.recordings.at("ramp_25bar.csv"), 2);
   EXPECT_THAT(all_texts(campaign_findings(valve.benches())),

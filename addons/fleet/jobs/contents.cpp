@@ -14,11 +14,11 @@ namespace spoolflow::fleet {
 namespace {
 
 constexpr std::size_t chunk_bytes = 1'000'000;
-constexpr int zstd_level = 3;  // about as quick as the server takes it
+constexpr int part_level = 3;  // about as quick as the server takes it
 
 std::vector<std::uint8_t> packed(std::string_view part) {
   std::vector<std::uint8_t> out(ZSTD_compressBound(part.size()));
-  out.resize(ZSTD_compress(out.data(), out.size(), part.data(), part.size(), zstd_level));
+  out.resize(ZSTD_compress(out.data(), out.size(), part.data(), part.size(), part_level));
   return out;
 }
 

@@ -14,11 +14,11 @@ namespace {
 using Json = nlohmann::json;
 
 #if defined(__x86_64__)
-constexpr const char* machine = "x86_64";
+constexpr const char* processor = "x86_64";
 #elif defined(__aarch64__)
-constexpr const char* machine = "aarch64";
+constexpr const char* processor = "aarch64";
 #else
-constexpr const char* machine = "other";
+constexpr const char* processor = "other";
 #endif
 
 Json json_of(const std::vector<PieceFile>& files) {
@@ -52,7 +52,7 @@ std::string text_of(const Json& json) {
 }  // namespace
 
 std::string piece_program(const std::string& version) {
-  return fmt::format("spoolflow {} pieces {} {}", version, piece_format, machine);
+  return fmt::format("spoolflow {} pieces {} {}", version, piece_format, processor);
 }
 
 std::string key_of(const Piece& piece, const std::string& program) {

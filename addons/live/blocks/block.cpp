@@ -13,7 +13,7 @@
 namespace spoolflow::fleet {
 namespace {
 
-constexpr std::array<std::uint8_t, 4> mark{'S', 'F', 'B', 'L'};
+constexpr std::array<std::uint8_t, 4> block_mark{'S', 'F', 'B', 'L'};
 constexpr std::uint8_t of_samples = 1, of_a_report = 2;  // versions
 constexpr std::size_t largest_report = 1 << 22;          // bytes before it was compressed
 constexpr std::size_t header_bytes = 104, checksum_bytes = 4, hash_bytes = 32, hash_at = 72;
@@ -64,7 +64,7 @@ std::vector<std::uint8_t> write_block(const Block& block) {
   const ColumnLayout layout = layout_of(block.samples);
   const std::vector<std::uint8_t> body =
       block.report ? write_report(*block.report) : write_columns(layout, block.samples);
-  std::vector<std::uint8_t> out(mark.begin(), mark.end());
+  std::vector<std::uint8_t> out(block_mark.begin(), block_mark.end());
   out.push_back(block.report ? of_a_report : of_samples);
   out.push_back(static_cast<std::uint8_t>(block.valve.size()));
   put_little_endian(out, layout.channels);
@@ -135,7 +135,7 @@ bool read_header(std::span<const std::uint8_t> bytes, Block& out, ColumnLayout& 
 /// Everything but the content.
 std::optional<NoBlock> open_block(std::span<const std::uint8_t> bytes, Block& out, Content& content) {
   if (bytes.size() < header_bytes + checksum_bytes || bytes.size() > largest_block) return NoBlock::wrong_length;
-  if (!std::equal(mark.begin(), mark.end(), bytes.begin())) return NoBlock::no_mark;
+  if (!std::equal(block_mark.begin(), block_mark.end(), bytes.begin())) return NoBlock::no_mark;
   if (bytes[4] != of_samples && bytes[4] != of_a_report) return NoBlock::other_version;
   const std::size_t body_at = header_bytes + bytes[5];
   const std::size_t end = bytes.size() - checksum_bytes;

@@ -8,7 +8,7 @@
 namespace spoolflow::live {
 namespace {
 
-constexpr auto patience = std::chrono::minutes(1);
+constexpr auto trial_patience = std::chrono::minutes(1);
 constexpr std::size_t longest_secret = 256;
 
 template <class Entries>
@@ -64,7 +64,7 @@ Access::Tried Access::tried(const std::string& from, std::string_view name) cons
 }
 
 bool Access::may_try(const Tried& what, Time now) {
-  const auto over = [&](const Trials& trials) { return now - trials.since > patience; };
+  const auto over = [&](const Trials& trials) { return now - trials.since > trial_patience; };
   std::erase_if(trials_, [&](const auto& entry) { return over(entry.second); });
   if (over(all_trials_)) all_trials_ = {0, now};
   const auto found = trials_.find(what);

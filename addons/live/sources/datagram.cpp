@@ -11,7 +11,7 @@
 namespace spoolflow::live {
 namespace {
 
-constexpr std::array<std::uint8_t, 4> mark{'S', 'F', 'L', 'W'};
+constexpr std::array<std::uint8_t, 4> datagram_mark{'S', 'F', 'L', 'W'};
 constexpr std::uint8_t version = 1;
 constexpr std::uint16_t known_channels = (1U << datagram_channels.size()) - 1;
 
@@ -56,7 +56,7 @@ std::string_view name(NoDatagram reason) {
 
 std::variant<Datagram, NoDatagram> read_datagram(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < datagram_header_bytes + datagram_checksum_bytes) return NoDatagram::too_short;
-  if (!std::equal(mark.begin(), mark.end(), bytes.begin())) return NoDatagram::no_mark;
+  if (!std::equal(datagram_mark.begin(), datagram_mark.end(), bytes.begin())) return NoDatagram::no_mark;
   if (bytes[4] != version) return NoDatagram::other_version;
   const auto channels = little_endian<std::uint16_t>(bytes, 6);
   const std::size_t width = static_cast<std::size_t>(std::popcount(channels));
@@ -98,7 +98,7 @@ std::variant<Datagram, NoDatagram> read_datagram(std::span<const std::uint8_t> b
 
 std::vector<std::uint8_t> write_datagram(const DatagramHeader& header,
                                          std::span<const estimation::TimedSample> samples) {
-  std::vector<std::uint8_t> out(mark.begin(), mark.end());
+  std::vector<std::uint8_t> out(datagram_mark.begin(), datagram_mark.end());
   out.push_back(version);
   out.push_back(0);
   put_little_endian(out, header.channels);
