@@ -42,7 +42,6 @@ struct HydraulicBoundaryOf {
   Scalar tank_pressure_Pa;
   Scalar load_force_N;
 };
-using HydraulicBoundary = HydraulicBoundaryOf<double>;
 
 /// A wave of period and amplitude 1 out of parabolas, sign and zeros of the sine, within 6 % of it, with a steady
 /// slope.
@@ -68,7 +67,6 @@ struct LoadFlowOf {
   Scalar flow_m3_per_s;  ///< from B to A
   Scalar conductance_m3_per_s_Pa;
 };
-using LoadFlow = LoadFlowOf<double>;
 
 /// What the pressures move: a piston, or the shaft of a motor in turns [rad] and torques [N m].
 template <class Scalar>
@@ -80,7 +78,6 @@ struct MovedLoadOf {
   Scalar leakage_m3_per_s_Pa;
   Scalar force;  ///< against moving under flow from B [N], or [N m]
 };
-using MovedLoad = MovedLoadOf<double>;
 
 template <class Scalar>
 inline MovedLoadOf<Scalar> moved_load(const LoadOf<Scalar>& load, Scalar load_force_N) {
@@ -132,7 +129,6 @@ struct CushionOf {
   Scalar stiffness_N_per_m;
   Scalar damping_N_s_per_m;
 };
-using Cushion = CushionOf<double>;
 
 /// End cushions of the cylinder, against moving further out of its stroke.
 template <class Scalar>
@@ -158,7 +154,6 @@ struct HydraulicRatesOf {
   CushionOf<Scalar> cushion;
   Scalar elastance_P, elastance_A, elastance_B;  ///< 1/C [Pa/m3]
 };
-using HydraulicRates = HydraulicRatesOf<double>;
 
 /// Source and volumes of the benches that hold a difference over the valve; `error_Pa` of the source's pressure.
 template <class Scalar>

@@ -25,10 +25,6 @@ using Given = std::type_identity_t<Type>;
 template <class Scalar>
 using CountOf = std::conditional_t<std::is_same_v<Mask<Scalar>, bool>, std::size_t, Scalar>;
 
-/// Whether a comparison has one answer, on which the program may branch.
-template <class Scalar>
-inline constexpr bool one_valve = std::is_same_v<Mask<Scalar>, bool>;
-
 inline bool any(bool condition) {
   return condition;
 }

@@ -34,14 +34,12 @@ struct CoilHeatOf {
           self.housing_to_oil_W_per_K);
   }
 };
-using CoilHeat = CoilHeatOf<double>;
 
 template <class Scalar>
 struct CoilHeatStateOf {
   Scalar winding_temperature_C = 25.0;
   Scalar housing_temperature_C = 25.0;
 };
-using CoilHeatState = CoilHeatStateOf<double>;
 
 /// Advances both temperatures with the losses held; explicit midpoint.
 template <class Scalar>

@@ -13,7 +13,6 @@ struct EndStopForceOf {
   Scalar stiffness_N_per_m;
   Scalar damping_N_s_per_m;
 };
-using EndStopForce = EndStopForceOf<double>;
 
 template <class Scalar>
 inline EndStopForceOf<Scalar> end_stop_force(const SpoolOf<Scalar>& spool, Scalar position_m, Scalar velocity_m_per_s) {

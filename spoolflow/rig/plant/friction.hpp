@@ -153,7 +153,6 @@ struct FrictionForceOf {
   Scalar force_N;            ///< sign of the motion that it resists
   Scalar stiffness_N_per_m;  ///< of the elements that stick
 };
-using FrictionForce = FrictionForceOf<double>;
 
 /// Force after a monotone displacement from the state; the velocity decides which elements at their limit go on
 /// slipping.

@@ -69,7 +69,6 @@ struct MagneticCircuitOf {
           self.eccentricity);
   }
 };
-using MagneticCircuit = MagneticCircuitOf<double>;
 
 /// Permeance of the working gap and its slope.
 template <class Scalar>
@@ -77,7 +76,6 @@ struct GapPermeanceOf {
   Scalar permeance_H;
   Scalar slope_H_per_m;  ///< dP/ds, >= 0
 };
-using GapPermeance = GapPermeanceOf<double>;
 
 /// The gap's constants.
 template <class Scalar>
@@ -89,7 +87,6 @@ struct WorkingGapOf {
   Scalar face_H_m;     ///< mu0 A_face
   Scalar face_gap_m;
 };
-using WorkingGap = WorkingGapOf<double>;
 
 template <class Scalar>
 inline WorkingGapOf<Scalar> working_gap(const MagneticCircuitOf<Scalar>& circuit) {

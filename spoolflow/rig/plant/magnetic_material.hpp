@@ -6,7 +6,6 @@
 ///
 /// k is odd, near zero below the saturation Bs and runs into B - Bs above it over a hyperbolic knee of width w, so the
 /// slope goes from 1/(mu0 mu_r) to 1/mu0: a branch-free curve with a closed integral (the energy density).
-#include <cmath>
 #include <numbers>
 
 #include "spoolflow/rig/numerics/parameter.hpp"
@@ -68,18 +67,6 @@ inline FieldPointOf<Scalar> anhysteretic_field(const AnhystereticCurveOf<Scalar>
   return {curve.linear_m_per_H * flux_density_T +
               curve.saturated_m_per_H * (flux_density_T + 0.5 * (root_below - root_above)),
           curve.linear_m_per_H + curve.saturated_m_per_H * (1.0 + 0.5 * (below / root_below - above / root_above))};
-}
-
-/// Energy density [J/m3] stored at a flux density: the integral of the field from zero.
-inline double anhysteretic_energy(const MagneticMaterial& iron, double flux_density_T) {
-  const double w = iron.knee_width_T;
-  const auto root_integral = [w](double u) { return 0.5 * (u * std::sqrt(u * u + w * w) + w * w * std::asinh(u / w)); };
-  const double nu = 1.0 / (vacuum_permeability_H_per_m * iron.relative_permeability);
-  const double half_square = 0.5 * flux_density_T * flux_density_T;
-  const double knee =
-      half_square + 0.5 * (root_integral(flux_density_T - iron.saturation_T) + 2.0 * root_integral(iron.saturation_T) -
-                           root_integral(flux_density_T + iron.saturation_T));
-  return nu * half_square + (1.0 / vacuum_permeability_H_per_m - nu) * knee;
 }
 
 }  // namespace spoolflow::rig

@@ -12,7 +12,6 @@ struct SolenoidLossesOf {
   Scalar winding_J = 0.0;
   Scalar iron_J = 0.0;
 };
-using SolenoidLosses = SolenoidLossesOf<double>;
 
 template <class Scalar>
 struct PlantLossesOf {

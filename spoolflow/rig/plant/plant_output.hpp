@@ -43,7 +43,6 @@ struct PathOutputOf {
   Scalar pressure_difference_Pa = 0.0;  ///< over both edges, added: P to T less what the load takes
   Scalar upstream_pressure_Pa = 0.0;    ///< of the port that is fed
 };
-using PathOutput = PathOutputOf<double>;
 
 /// Everything true at one instant.
 template <class Scalar>

@@ -93,7 +93,6 @@ struct BranchFootOf {
   Scalar flux_density_T = 0.0;
   Scalar whole_T_A_per_m = 0.0;  ///< G(beta + c2)
 };
-using BranchFoot = BranchFootOf<double>;
 
 /// What the iron remembers; {} is demagnetised. The first reversal left the virgin curve; each loop lies inside the one
 /// before. Of several valves: preisach_lanes.hpp.
