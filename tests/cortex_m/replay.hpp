@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,10 @@ struct Core {
   const char* machine;  ///< of QEMU
   const char* libraries = "-lgcc";
 };
+/// Its name in the names of tests.
+inline void PrintTo(const Core& core, std::ostream* out) {
+  *out << core.name;
+}
 inline constexpr std::array<Core, 2> cores{
     {{"Cortex-M4F", "-mcpu=cortex-m4 -mfpu=fpv4-sp-d16 -mfloat-abi=hard", "mps2-an386"},
      {"Cortex-M7", "-mcpu=cortex-m7 -mfpu=fpv5-sp-d16 -mfloat-abi=hard", "mps2-an500"}}};

@@ -115,8 +115,9 @@ TEST_P(SoftFloat, DISABLED_BothSensorsAnswerAsTheHostWithoutAFloatingPointUnit) 
 INSTANTIATE_TEST_SUITE_P(Cores, SoftFloat, ::testing::ValuesIn(soft_float_cores),
                          [](const auto& core) { return core.index == 0 ? "M3" : "M0plus"; });
 
-INSTANTIATE_TEST_SUITE_P(Cores, CortexM, ::testing::ValuesIn(cores),
-                         [](const auto& core) { return std::string(core.param.machine).substr(5); });
+INSTANTIATE_TEST_SUITE_P(M4F, CortexM, ::testing::Values(cores[0]));
+/// The same instructions as the M4F's; run by the long tests.
+INSTANTIATE_TEST_SUITE_P(DISABLED_M7, CortexM, ::testing::Values(cores[1]));
 
 }  // namespace
 }  // namespace spoolflow::cortex_m

@@ -4,7 +4,8 @@
 ///     R(T) = R20 (1 - s) (1 + alpha (T - 20 C)) + R_added
 ///
 /// A shorted share s of the turns drops out of the winding and stays coupled to the flux as a closed secondary of s N
-/// turns and s R20; referred to one turn, its conductance is s N^2 / R20 (the magnetic circuit sees it as an eddy loop).
+/// turns and s R20; referred to one turn, its conductance is s N^2 / R20 (the magnetic circuit sees it as an eddy
+/// loop).
 #include "spoolflow/rig/numerics/parameter.hpp"
 #include "spoolflow/rig/numerics/scalar.hpp"
 
