@@ -2,6 +2,7 @@
 
 #include <zstd.h>
 
+#include "addons/fleet/jobs/contents.hpp"
 #include "spoolflow/model/provenance.hpp"
 
 namespace spoolflow::fleet {
@@ -13,9 +14,7 @@ constexpr int model_level = 9;  // it is made seldom, and somebody waits for it
 }  // namespace
 
 std::vector<std::uint8_t> pack_model(const std::string& text) {
-  std::vector<std::uint8_t> out(ZSTD_compressBound(text.size()));
-  out.resize(ZSTD_compress(out.data(), out.size(), text.data(), text.size(), model_level));
-  return out;
+  return packed(text, model_level);
 }
 
 std::optional<std::string> unpack_model(std::span<const std::uint8_t> packed) {

@@ -46,12 +46,11 @@ TEST_F(Demo, GoesTheWholeWayWithoutAnyFileBesideTheProgramAndShowsTheCommandsTha
   for (std::string line; std::getline(lines, line);) {
     const auto at = line.find("  spoolflow ");
     if (at != 0) continue;
-    ++steps;
-    if (line.find("--bench flow") != std::string::npos) continue;  // as docs/walks/flow_bench.md does
     const Answer step = run(line.substr(12) + " -q");
     EXPECT_EQ(step.status, 0) << line << step.message;
+    ++steps;
   }
-  EXPECT_EQ(steps, 6);
+  EXPECT_EQ(steps, 6);  // the last one: the same campaign on a flow bench
   EXPECT_TRUE(content("out/duty_cycle.csv") == recording);
   EXPECT_TRUE(content("out/estimate.csv") == estimate);
 }

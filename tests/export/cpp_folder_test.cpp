@@ -53,10 +53,10 @@ TEST(CppFolder, StandsAloneAndAnswersAsTheHostWithoutAWarning) {
        {example_model(), without_observer(), whole_example_model(), whole_without_observer()}) {
     const ExportedFolder folder(model);
     for (const std::string& compiler : compilers()) {
-      const std::string build = compiler + strict;
-      EXPECT_EQ(folder.run(build + "self_test.cpp -o self_test && ./self_test"), 0) << build;
-      if (!model.observer) continue;  // the example steps the same sensor
-      EXPECT_EQ(folder.run(build + "example.cpp -o example && ./example"), 0) << build;
+      for (const char* program : {"example", "self_test"}) {
+        const std::string build = compiler + strict + program + ".cpp -o " + program;
+        EXPECT_EQ(folder.run(build + " && ./" + program), 0) << build;
+      }
     }
   }
 }
@@ -86,14 +86,16 @@ int main() {
 )";
 
 TEST(CppFolder, AnswersToTheBitWithoutTheCompilersExtensions) {
-  const ExportedFolder folder(whole_example_model());  // it steps the sensors of both directions
-  folder.write("bits.cpp", answers_in_bits);
-  ASSERT_EQ(folder.run("g++ -std=c++17 -O2 -I. bits.cpp -o bits && ./bits >with && test -s with"), 0);
-  for (const std::string& compiler : compilers()) {
-    for (const char* standard : {" -std=c++17", " -std=c++20"}) {
-      const std::string build =
-          compiler + standard + " -O2 -Wall -Wextra -Wpedantic -Werror -DSPOOLFLOW_STANDARD_CPP -I. ";
-      EXPECT_EQ(folder.run(build + "bits.cpp -o bits && ./bits >without && cmp with without"), 0) << build;
+  for (const model::Model& model : {example_model(), whole_example_model()}) {
+    const ExportedFolder folder(model);
+    folder.write("bits.cpp", answers_in_bits);
+    ASSERT_EQ(folder.run("g++ -std=c++17 -O2 -I. bits.cpp -o bits && ./bits >with && test -s with"), 0);
+    for (const std::string& compiler : compilers()) {
+      for (const char* standard : {" -std=c++17", " -std=c++20"}) {
+        const std::string build =
+            compiler + standard + " -O2 -Wall -Wextra -Wpedantic -Werror -DSPOOLFLOW_STANDARD_CPP -I. ";
+        EXPECT_EQ(folder.run(build + "bits.cpp -o bits && ./bits >without && cmp with without"), 0) << build;
+      }
     }
   }
 }
@@ -115,7 +117,7 @@ TEST(CppFolder, ServesFirmwareInC) {
 }
 
 TEST(CppFolder, SaysInCThatNothingIsKnownBeforeTheFirstSample) {
-  for (const model::Model& model : {whole_example_model(), without_observer()}) {
+  for (const model::Model& model : {example_model(), whole_example_model(), without_observer()}) {
     const ExportedFolder folder(model);
     folder.write("before.c", R"(#include "valve_sensor.h"
 int main(void) {

@@ -14,15 +14,15 @@ namespace spoolflow::fleet {
 namespace {
 
 constexpr std::size_t chunk_bytes = 1'000'000;
-constexpr int part_level = 3;  // about as quick as the server takes it
-
-std::vector<std::uint8_t> packed(std::string_view part) {
-  std::vector<std::uint8_t> out(ZSTD_compressBound(part.size()));
-  out.resize(ZSTD_compress(out.data(), out.size(), part.data(), part.size(), part_level));
-  return out;
-}
+constexpr int chunk_level = 3;  // about as quick as the server takes it
 
 }  // namespace
+
+std::vector<std::uint8_t> packed(std::string_view content, int level) {
+  std::vector<std::uint8_t> out(ZSTD_compressBound(content.size()));
+  out.resize(ZSTD_compress(out.data(), out.size(), content.data(), content.size(), level));
+  return out;
+}
 
 PieceFile keep(Session& session, const std::string& name, const std::string& content) {
   PieceFile out{name, model::sha256_of_text(content), static_cast<std::int64_t>(content.size())};
@@ -30,7 +30,7 @@ PieceFile keep(Session& session, const std::string& name, const std::string& con
   keep_content(session, out.sha256, out.bytes, [&](int place) -> std::optional<std::vector<std::uint8_t>> {
     const std::size_t from = chunk_bytes * static_cast<std::size_t>(place);
     if (from >= content.size()) return std::nullopt;
-    return packed(std::string_view(content).substr(from, chunk_bytes));
+    return packed(std::string_view(content).substr(from, chunk_bytes), chunk_level);
   });
   return out;
 }
