@@ -125,7 +125,7 @@ class ChannelReader final : public Reader {
       const std::vector<double>& values = block.columns[index(bound_[k].channel)];
       std::uint64_t missing = 0;
       for (const double value : values) missing += std::isnan(value) ? 1 : 0;
-      notes_.missing_values += missing;
+      notes_.missing[index(bound_[k].channel)] += missing;
       if (!runs_on_) plausibility_.take(k, values, place);
     }
   }

@@ -1,10 +1,12 @@
 #pragma once
 /// Opens any supported file as a stream of blocks of samples in SI units.
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -40,15 +42,19 @@ struct InfiniteSamples {
 /// What was met while reading and is reported rather than swallowed.
 struct ReadNotes {
   std::uint64_t rows = 0;
-  std::uint64_t duplicate_times = 0;              ///< equal to the time stamp before
-  std::uint64_t missing_values = 0;               ///< empty cells in channels that were asked for, but for time
-  std::uint64_t missing_times = 0;                ///< these and what follows only of a source that runs on
-  std::uint64_t backward_times = 0;               ///< before the time stamp before
-  std::uint64_t left_out = 0;                     ///< lines that could not be read
+  std::uint64_t duplicate_times = 0;                   ///< equal to the time stamp before
+  std::array<std::uint64_t, channel_count> missing{};  ///< empty cells of each channel, but for time
+  std::uint64_t missing_times = 0;                     ///< these and what follows only of a source that runs on
+  std::uint64_t backward_times = 0;                    ///< before the time stamp before
+  std::uint64_t left_out = 0;                          ///< lines that could not be read
   std::map<Channel, InfiniteSamples> infinite{};  ///< that were taken as missing (ReadOptions::infinite_is_missing)
   std::string resampled{};  ///< which columns had a time of their own, from which rate to which, and how;
                             ///< before it what of the file is missing (SampleTable::lost), and channels that
                             ///< were asked for where they can be had, but cannot be read
+
+  [[nodiscard]] std::uint64_t missing_values() const {
+    return std::accumulate(missing.begin(), missing.end(), std::uint64_t{0});
+  }
 };
 
 /// Streams a recording; memory does not grow with its length (CSV; others are read in slabs).

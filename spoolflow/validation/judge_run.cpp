@@ -172,7 +172,7 @@ JudgedRun judge_run(const model::Valve& valve, RunSamples& run, const KnownMeter
   RunResult& result = out.result;
   result.samples = run.time_s.size();
   result.duplicate_times = run.notes.duplicate_times;
-  result.missing_values = run.notes.missing_values;
+  result.missing_values = run.notes.missing_values();
   result.resampled = run.notes.resampled;
   result.duration_s = run.time_s.empty() ? 0 : run.time_s.back() - run.time_s.front();
   result.has_reference = !run.reference_m3_per_s.empty();

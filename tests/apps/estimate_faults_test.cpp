@@ -69,6 +69,17 @@ TEST_F(EstimateFaults, ACurrentThatNoCoilCarriesHoldsTheFlowWithABandThatHoldsTh
   }
 }
 
+TEST_F(EstimateFaults, ValuesThatAreMissingAreCountedByChannelWithWhatTheEstimateDoesThere) {
+  std::string text = "time_s,current_A,voltage_V,position_mm,oil_temperature_C\n";
+  for (int k = 0; k < 100; ++k)
+    text += fmt::format("{:.3f},{},3,1.1,{}\n", 1e-3 * k, k == 50 ? "" : "1.2", k < 40 ? "" : "50");
+  write("gaps.csv", text);
+  const Answer answer = run("estimate " SPOOLFLOW_EXAMPLE_MODEL " gaps.csv -o flow.csv");
+  EXPECT_EQ(answer.status, 0) << answer.message;
+  EXPECT_THAT(answer.message, HasSubstr("1 values of current are missing; the estimate is held there"));
+  EXPECT_THAT(answer.message, HasSubstr("40 values of oil_temperature are missing; the last one stands in there"));
+}
+
 TEST_F(EstimateFaults, AVoltageOfSeveralSuppliesIsReported) {
   const std::vector<Row> sound = estimate([](double current_A) { return std::pair(current_A, 2.9 * current_A); });
   const std::vector<Row> rows = estimate([](double current_A) { return std::pair(current_A, 200.0); });

@@ -243,6 +243,33 @@ TEST(Observer, HoldsTheOilTemperatureWhereItsSensorIsBroken) {
   EXPECT_FALSE(has(sound.status, Status::temperature_fault));
 }
 
+/// The first plausible temperature comes after `late` samples that read `before_K`.
+ObserverState<double> with_late_oil_reading(double before_K, int late) {
+  const ObserverParameters<double> valve = closed_form_observer<double>(closed_form);
+  ObserverState<double> state{};
+  for (int k = 0; k < late + 20; ++k) step(valve, state, {1e-3, 1.2, 10, 1e-3, k < late ? before_K : 333.0});
+  return state;
+}
+
+TEST(Observer, TakesTheFirstTemperatureOfTheOilAtOnceHoweverLateItComes) {
+  for (const double before_K : {static_cast<double>(NAN), 73.15}) {
+    for (const int late : {1, 700}) {
+      const ObserverState<double> state = with_late_oil_reading(before_K, late);
+      EXPECT_EQ(state.oil.temperature_K, 333.0) << before_K << " " << late;
+      EXPECT_FALSE(has(state.last.status, Status::temperature_fault)) << before_K << " " << late;
+    }
+  }
+}
+
+TEST(Observer, MarksABrokenOilTemperatureFromTheFirstSampleOn) {
+  const ObserverParameters<double> valve = closed_form_observer<double>(closed_form);
+  ObserverState<double> state{};
+  for (int k = 0; k < 50; ++k) {
+    step(valve, state, {1e-3, 1.2, 10, 1e-3, 73.15});
+    EXPECT_TRUE(has(state.last.status, Status::temperature_fault)) << k;
+  }
+}
+
 TEST(Observer, BelievesALeapOfTheOilTemperatureThatLasts) {
   const ObserverParameters<double> valve = closed_form_observer<double>(closed_form);
   ObserverState<double> state{};

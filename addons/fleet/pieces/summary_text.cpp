@@ -22,7 +22,7 @@ void for_each_member(Summary& summary, Visit&& visit) {
   visit("with_fault", summary.with_fault);
   visit("rows", summary.notes.rows);
   visit("duplicate_times", summary.notes.duplicate_times);
-  visit("missing_values", summary.notes.missing_values);
+  visit("missing", summary.notes.missing);
   visit("missing_times", summary.notes.missing_times);
   visit("backward_times", summary.notes.backward_times);
   visit("left_out", summary.notes.left_out);

@@ -73,7 +73,7 @@ py::dict notes_of(const ReadRecording& read) {
   py::dict out;
   out["samples"] = read.notes.rows;
   out["duplicate_times"] = read.notes.duplicate_times;
-  out["missing_values"] = read.notes.missing_values;
+  out["missing_values"] = read.notes.missing_values();
   out["resampled"] = read.notes.resampled;
   return out;
 }
@@ -93,7 +93,7 @@ py::tuple packed(const ReadRecording& read) {
   for (const std::vector<double>& column : read.recording.columns)
     columns.append(py::bytes(reinterpret_cast<const char*>(column.data()), column.size() * sizeof(double)));
   const recording::ReadNotes& notes = read.notes;
-  return py::make_tuple(read.recording.file, columns, notes.rows, notes.duplicate_times, notes.missing_values,
+  return py::make_tuple(read.recording.file, columns, notes.rows, notes.duplicate_times, notes.missing,
                         notes.resampled);
 }
 std::shared_ptr<ReadRecording> unpacked(const py::tuple& state) {
@@ -108,7 +108,7 @@ std::shared_ptr<ReadRecording> unpacked(const py::tuple& state) {
   }
   out->notes = {.rows = state[2].cast<std::uint64_t>(),
                 .duplicate_times = state[3].cast<std::uint64_t>(),
-                .missing_values = state[4].cast<std::uint64_t>(),
+                .missing = state[4].cast<decltype(recording::ReadNotes::missing)>(),
                 .resampled = state[5].cast<std::string>()};
   out->recording.resampled = out->notes.resampled;
   return out;

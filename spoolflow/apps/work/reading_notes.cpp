@@ -1,8 +1,32 @@
 #include "spoolflow/apps/work/reading_notes.hpp"
 
+#include <string_view>
+
 #include <fmt/format.h>
 
 namespace spoolflow::apps {
+namespace {
+
+using recording::Channel;
+
+struct Without {
+  std::string_view what_then;
+  std::vector<Channel> channels;
+};
+
+/// What the sensor does where a value of these channels is missing.
+const std::vector<Without>& without() {
+  static const std::vector<Without> out{
+      {"the estimate is held there, with status sample_missing",
+       {Channel::current, Channel::current_a, Channel::current_b, Channel::position}},
+      {"the last one stands in there, before the first one that of the calibration", {Channel::oil_temperature}},
+      {"the coil's diagnosis goes on without them", {Channel::voltage, Channel::voltage_a, Channel::voltage_b}},
+      {"forces alone show the pressure there",
+       {Channel::pressure_p, Channel::pressure_a, Channel::pressure_b, Channel::pressure_t}}};
+  return out;
+}
+
+}  // namespace
 
 std::string repeated_times_text(std::uint64_t repeated, std::uint64_t samples) {
   std::string out = fmt::format("{} samples repeat the time stamp before them", repeated);
@@ -18,9 +42,12 @@ std::vector<std::string> notes_text(const recording::ReadNotes& notes, const std
     out.push_back(fmt::format("{}: {}; each is estimated, with status time_fault", file,
                               repeated_times_text(notes.duplicate_times, notes.rows)));
   }
-  if (notes.missing_values > 0) {
-    out.push_back(fmt::format("{}: {} values are missing; the estimate is held there, with status sample_missing", file,
-                              notes.missing_values));
+  for (const auto& [what_then, channels] : without()) {
+    for (const Channel channel : channels) {
+      const std::uint64_t missing = notes.missing[static_cast<std::size_t>(channel)];
+      if (missing > 0)
+        out.push_back(fmt::format("{}: {} values of {} are missing; {}", file, missing, name(channel), what_then));
+    }
   }
   if (notes.missing_times + notes.backward_times > 0) {
     out.push_back(fmt::format(

@@ -25,7 +25,7 @@ void write_estimate_summary(std::ostream& out, const std::vector<validation::Est
                           {"fault_share", static_cast<double>(summary.with_fault) / count},
                           {"status_shares", std::move(status)},
                           {"duplicate_times", summary.notes.duplicate_times},
-                          {"missing_values", summary.notes.missing_values},
+                          {"missing_values", summary.notes.missing_values()},
                           {"missing_times", summary.notes.missing_times},
                           {"backward_times", summary.notes.backward_times},
                           {"resampled", summary.notes.resampled},

@@ -2,6 +2,7 @@
 /// The oil temperature, from a signal that is noisy, may be missing and may break.
 #include <type_traits>
 
+#include "spoolflow/sensor/basis/compiler.hpp"
 #include "spoolflow/sensor/basis/due.hpp"
 #include "spoolflow/sensor/basis/scalar.hpp"
 
@@ -16,11 +17,14 @@ inline constexpr double warmest_oil_K = 423.15;
 inline constexpr double oil_leap_K = 15;
 /// ... unless it lasts for longer than this [s].
 inline constexpr double longest_oil_fault_s = 20;
+/// Before a plausible reading has come an implausible one has been so for as long [s].
+inline constexpr double first_oil_fault_s = 1e-3;
 
 template <class T>
 struct OilState {
   T temperature_K{};  ///< smoothed
   T fault_s{};        ///< for how long the signal has been implausible; 0: it is not
+  bool measured{};    ///< a plausible temperature has come; until then the usual one stands in
 };
 
 static_assert(std::is_trivially_copyable_v<OilState<float>>);
@@ -30,11 +34,12 @@ constexpr bool is_oil_temperature(T temperature_K) {
   return temperature_K > T(coldest_oil_K) && temperature_K < T(warmest_oil_K);
 }
 
-/// To be called before the first sample. `usual_K` stands in for a temperature that is missing or implausible.
+/// To be called before the first sample, and until a plausible temperature has come. `usual_K` stands in for it.
 template <class T>
 constexpr void begin(OilState<T>& oil, T measured_K, T usual_K) {
-  oil.temperature_K = is_oil_temperature(measured_K) ? measured_K : usual_K;
-  oil.fault_s = T(0);
+  oil.measured = is_oil_temperature(measured_K);
+  oil.temperature_K = oil.measured ? measured_K : usual_K;
+  oil.fault_s = !oil.measured && is_number(measured_K) ? T(first_oil_fault_s) : T(0);
 }
 
 namespace detail {
@@ -48,10 +53,14 @@ constexpr void count_fault(OilState<T>& oil, T measured_K, bool implausible, T s
 
 }  // namespace detail
 
-/// One sample [K]. The last temperature is held where it is missing, no oil has it, or it leaps.
+/// One sample [K]. The last temperature is held where it is missing, no oil has it, or it leaps from those measured.
 template <class T>
 constexpr void follow_temperature(OilState<T>& oil, T measured_K, const Due<T>& due) {
   if (!due.now || !is_number(measured_K)) return;
+  if (unlikely(!oil.measured)) {
+    begin(oil, measured_K, oil.temperature_K);
+    return;
+  }
   const T change_K = measured_K - oil.temperature_K;
   const bool implausible = magnitude(change_K) > T(oil_leap_K) || !is_oil_temperature(measured_K);
   const T pace = smaller(due.since_s * T(1 / temperature_smoothing_s), T(1));

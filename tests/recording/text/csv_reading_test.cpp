@@ -71,7 +71,7 @@ TEST(CsvReading, TakesAnEmptyCellForAMissingSampleAndCountsIt) {
   EXPECT_TRUE(std::isnan(block.columns[static_cast<std::size_t>(Channel::position)][1]));
   EXPECT_FALSE(reader->next(block));
   EXPECT_EQ(reader->notes().rows, 4u);
-  EXPECT_EQ(reader->notes().missing_values, 1u);
+  EXPECT_EQ(reader->notes().missing_values(), 1u);
   EXPECT_EQ(reader->notes().duplicate_times, 1u);
 }
 
