@@ -167,7 +167,7 @@ test('the overview shows every valve with flow, band, sign and what is worst', a
   assert.deepEqual(await page.locator('.card .name').allTextContents(), ['press_1', 'press_2', 'clamp_torn_cable', 'feed_udp']);
   assert.deepEqual(await page.locator('.card').first().locator('.axis span').allTextContents(), ['\u22122 min', '\u22121 min', 'now']);
   for (const text of await page.locator('.card .band').allTextContents()) assert.match(text, /^(−?\d+\.\d\d|–) to (\d+\.\d\d|–)$/);
-  assert.match(await page.locator('#totals').textContent(), /^4 valves, \d not good(, \d without samples)?; .* L\/min, .* kW hydraulic$/);
+  assert.match(await page.locator('#totals').textContent(), /^4 valves, (\d not|all) good(, \d without samples)?; .* L\/min, .* kW hydraulic$/);
   const line = () => page.locator('.card .spark .line').first().getAttribute('d');
   const before = await line();
   await page.waitForFunction((was) => document.querySelector('.card .spark .line').getAttribute('d') !== was, before);

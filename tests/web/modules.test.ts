@@ -4,7 +4,7 @@ import { numberText } from './src/number_text';
 import { mapOf, rowsOf } from './src/playground/channel_map';
 import { channelOf, missing, type PackedNumbers } from './src/packed_numbers';
 import { tickTexts } from './src/plot_options';
-import { grouped, trendText, type Indicator } from './src/live/api';
+import { causesText, goodText, grouped, measured, trendText, type Alarm, type Indicator, type Valve } from './src/live/api';
 import { sparkOf } from './src/live/overview';
 import { choices, ReadersUnits } from './src/readers_units';
 import { SampleTimes } from './src/sample_times';
@@ -186,9 +186,43 @@ test('of indicators raised ones come first, then the most informative ones, and 
 
 test('a trend shows how fast and when its limit is reached, in the indicator’s unit', () => {
   const trend = { per_hour: 0.5e-6, uncertainty_95: 1e-7, limit: 80e-6, hours_to_limit: 100, hours_to_limit_95: [80, 130] as [number, number] };
-  assert.equal(trendText(seen('edge_rounding', 'good', { unit: 'm', trend })), '+12 µm a day; reaches its limit 80 µm in about 4 days at work');
-  assert.equal(trendText(seen('edge_rounding', 'good', { unit: 'm', trend: { ...trend, hours_to_limit: null } })), '+12 µm a day');
+  assert.equal(trendText(seen('edge_rounding', 'good', { value: 20e-6, unit: 'm', trend })), '+12 µm a day; reaches its limit of 80 µm in about 4 days at work');
+  assert.equal(trendText(seen('edge_rounding', 'good', { value: 20e-6, unit: 'm', trend: { ...trend, hours_to_limit: null } })), '+12 µm a day');
   assert.equal(trendText(seen('edge_rounding', 'good', { trend: null })), '');
+});
+
+test('an indicator is beyond its limit where its value is, not where its trend has run ahead', () => {
+  const trend = { per_hour: 0.4, uncertainty_95: 0.1, limit: 1.8, hours_to_limit: 0, hours_to_limit_95: [0, 1] as [number, number] };
+  assert.equal(trendText(seen('friction_ratio', 'raised', { value: 1.407, trend })), '+9.6 a day; by its trend it is about to reach its limit of 1.8');
+  assert.equal(trendText(seen('friction_ratio', 'raised', { value: 1.93, trend })), '+9.6 a day; it is beyond its limit of 1.8');
+  const falling = { ...trend, per_hour: -60e-6, limit: -50e-6 };
+  assert.equal(trendText(seen('position_zero', 'good', { value: -1e-6, unit: 'm', trend: falling })),
+               '−60 µm an hour; by its trend it is about to reach its limit of −50 µm');
+  assert.equal(trendText(seen('position_zero', 'raised', { value: -52e-6, unit: 'm', trend: { ...falling, hours_to_limit: 0.1 } })),
+               '−60 µm an hour; it is beyond its limit of −50 µm');
+});
+
+test('a value has the digits that its uncertainty leaves it', () => {
+  assert.equal(measured(seen('friction_ratio', 'good', { value: 0.9407, uncertainty_95: 0.128 })), '0.94 ± 0.13');
+  assert.equal(measured(seen('position_zero', 'good', { value: -1.04e-6, uncertainty_95: 0.996e-5, unit: 'm' })), '−1 ± 10 µm');
+  assert.equal(measured(seen('breakaway_force', 'good', { value: 1249.6, uncertainty_95: 123, unit: 'N' })), '1250 ± 120 N');
+  assert.equal(measured(seen('coil_resistance', 'good', { value: 3.14159, uncertainty_95: 0, unit: 'Ohm' })), '3.142 ± 0 Ω');
+  assert.equal(measured(seen('position_zero', 'unknown', { value: null, uncertainty_95: null, unit: 'm' })), '– ± – µm');
+});
+
+test('a cause is likely where its alarm stands or an indicator is raised, and suspected else', () => {
+  const valve = { id: 'v', causes: [{ cause: 'position_sensor', odds: 1e6 }, { cause: 'friction', odds: 2 }], indicators: [seen('friction_ratio', 'good')] } as Valve;
+  const alarm = { valve: 'v', cause: 'position_sensor', gone: null } as Alarm;
+  assert.equal(causesText(valve, [alarm]), 'Likely: position sensor (odds 1.00e+6). Suspected, not decided: friction (odds 2)');
+  assert.equal(causesText(valve, [{ ...alarm, valve: 'w' }, { ...alarm, gone: '2026-11-29T09:00:00Z' }]),
+               'Suspected, not decided: position sensor (odds 1.00e+6), friction (odds 2)');
+  assert.equal(causesText({ ...valve, indicators: [seen('friction_ratio', 'raised')] }, []), 'Likely: position sensor (odds 1.00e+6), friction (odds 2)');
+  assert.equal(causesText({ ...valve, causes: [] }, [alarm]), '');
+});
+
+test('valves that are all good are counted by that word', () => {
+  assert.equal(goodText(0), 'all good');
+  assert.equal(goodText(3), '3 not good');
 });
 
 test('a card’s line and band break where no samples came', () => {

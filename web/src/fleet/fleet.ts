@@ -1,4 +1,5 @@
 /** The page of `spoolflow fleet`: asks the program every few seconds how all valves stand. */
+import { goodText } from '../live/api';
 import { run, valveOf, type View } from '../live/frame';
 import { readFleet, type FleetData } from './api';
 import { AlarmsView, WorkersView } from './other_views';
@@ -19,7 +20,7 @@ function viewOf(hash: string): View<FleetData> | null {
 
 function totals({ valves, sites }: FleetData): { text: string; open: number } {
   const sum = (of: (site: FleetData['sites'][number]) => number): number => sites.reduce((all, site) => all + of(site), 0);
-  const text = `${valves.length} valves of ${sites.length} sites, ${sum((one) => one.valves - one.ne107.good)} not good, ` +
+  const text = `${valves.length} valves of ${sites.length} sites, ${goodText(sum((one) => one.valves - one.ne107.good))}, ` +
     `${sum((one) => one.silent)} silent`;
   return { text, open: sum((one) => one.unacknowledged) };
 }

@@ -1,6 +1,6 @@
 /** Alarms with what was seen when they were raised, raw samples, and what those who may do with them. */
 import {
-  act, clock, duration, inUnit, isOpen, keyOf, scaled, severity, short, signs, trendText, words, type Alarm, type Valve,
+  act, clock, duration, inUnit, isOpen, keyOf, measured, scaled, severity, short, signs, trendText, words, type Alarm, type Valve,
 } from './api';
 import { AlarmDesk } from './alarm_desk';
 import { element, row, setText } from './element';
@@ -53,9 +53,9 @@ class Entry {
     const since = `${alarm.gone === null ? 'For' : 'Stood for'} ${duration(Math.max(0, ended - Date.parse(alarm.raised)) / 1000)}`;
     const named = (one: { name: string }): boolean => one.name === alarm.indicator || one.name === `${alarm.indicator ?? ''}_a`;
     const lines = (valve?.indicators ?? []).filter((one) => named(one) && one.value !== null).map((one) => {
-      const { factor, unit } = inUnit(one), then = alarm.indicators.find((each) => each.name === one.name);
+      const { factor } = inUnit(one), then = alarm.indicators.find((each) => each.name === one.name);
       const value = (each: number | null | undefined): string => short(scaled(each ?? null, factor));
-      return `${words(one.name)} ${value(one.value)} ± ${value(one.uncertainty_95)}${unit === '' ? '' : ` ${unit}`}` +
+      return `${words(one.name)} ${measured(one)}` +
         `${then === undefined ? '' : ` (${value(then.value)} when it was raised)`}, usual ${value(one.baseline)}` +
         `${one.trend == null ? '' : `; ${trendText(one)}`}`;
     });

@@ -241,6 +241,9 @@ export function figure(value: number | null, digits: number): string {
   return value === null ? '–' : value.toFixed(digits).replace(/^-(?=[0.]*$)/, '').replace(/^-/, '−');
 }
 
+/** "all good", "3 not good". */
+export const goodText = (bad: number): string => bad === 0 ? 'all good' : `${bad} not good`;
+
 /** Whether what is known of a valve is old: no samples come, none came since the start, or its recording has ended. */
 export function isOld({ source }: Valve): boolean {
   const longest_s = 5;
@@ -273,11 +276,15 @@ export function grouped(indicators: readonly Indicator[]): { shown: Indicator[];
 export function trendText(one: Indicator): string {
   if (one.trend == null) return '';
   const { factor, unit } = inUnit(one), { per_hour, limit, hours_to_limit } = one.trend;
-  const days = Math.abs(per_hour * 24 * factor) < 1000;
-  const rate = `${per_hour * factor > 0 ? '+' : ''}${short(per_hour * factor * (days ? 24 : 1))}${unit === '' ? '' : ` ${unit}`} a ${days ? 'day' : 'hour'}`;
-  const reach = hours_to_limit === null ? '' : hours_to_limit <= 0 ? `; it is beyond its limit ${short(limit * factor)}`
-    : `; reaches its limit ${short(limit * factor)}${unit === '' ? '' : ` ${unit}`} in about ${duration(3600 * hours_to_limit)} at work`;
-  return `${rate}${reach}`;
+  const days = Math.abs(per_hour * 24 * factor) < 1000, of = unit === '' ? '' : ` ${unit}`;
+  const rate = `${per_hour * factor > 0 ? '+' : ''}${short(per_hour * factor * (days ? 24 : 1))}${of} ${days ? 'a day' : 'an hour'}`;
+  const its = `its limit of ${short(limit * factor)}${of}`;
+  const beyond = one.value !== null && (per_hour < 0 ? one.value <= limit : one.value >= limit);
+  if (beyond) return `${rate}; it is beyond ${its}`;
+  if (hours_to_limit === null) return rate;
+  // The line through the last points runs ahead of the value, which is of all that was learnt.
+  return hours_to_limit <= 0 ? `${rate}; by its trend it is about to reach ${its}`
+    : `${rate}; reaches ${its} in about ${duration(3600 * hours_to_limit)} at work`;
 }
 
 /** Four digits that matter, for figures of any size. */
@@ -286,6 +293,26 @@ export function short(value: number | null): string {
   const size = Math.abs(value);
   const text = size !== 0 && (size < 1e-3 || size >= 1e6) ? value.toExponential(2) : String(Number(value.toPrecision(4)));
   return text.replace(/-/g, '−');
+}
+
+/** A value by its uncertainty, of which two digits matter: "0.94 ± 0.13", "1250 ± 120"; without one four digits. */
+export function measured(one: Indicator): string {
+  const { factor, unit } = inUnit(one), value = scaled(one.value, factor), about = scaled(one.uncertainty_95, factor);
+  const of = unit === '' ? '' : ` ${unit}`;
+  if (value === null || about === null || !(about >= 1e-6 && about < 1e6)) return `${short(value)} ± ${short(about)}${of}`;
+  const decimals = 1 - Math.floor(Math.log10(Number(about.toPrecision(2)))), step = 10 ** -decimals;
+  const text = (number: number): string => decimals < 0 ? figure(Math.round(number / step) * step, 0) : figure(number, decimals);
+  return `${text(value)} ± ${text(about)}${of}`;
+}
+
+/** What the monitor thinks of; an alarm of it that stands is its decision, as a raised indicator is. */
+export function causesText({ id, causes, indicators }: Valve, alarms: readonly Alarm[]): string {
+  const raised = indicators.some((one) => one.state === 'raised');
+  const standing = new Set(alarms.filter((one) => one.valve === id && one.gone === null).map((one) => one.cause));
+  const listed = (decided: boolean): string => causes.filter((one) => (raised || standing.has(one.cause)) === decided)
+    .map((one) => `${words(one.cause)} (odds ${short(one.odds)})`).join(', ');
+  return [['Likely', listed(true)], ['Suspected, not decided', listed(false)]]
+    .flatMap(([how, which]) => which === '' ? [] : [`${how}: ${which}`]).join('. ');
 }
 
 export const words = (name: string): string => name.replace(/_/g, ' ');

@@ -1,5 +1,5 @@
 /** The page of `spoolflow live`: asks the program once a second, and follows one valve as its samples come. */
-import { figure, isOpen, readAll, words, type LiveData } from './api';
+import { figure, goodText, isOpen, readAll, words, type LiveData } from './api';
 import { setText } from './element';
 import { run, valveOf, type View } from './frame';
 import { Overview } from './overview';
@@ -16,7 +16,7 @@ function viewOf(hash: string): View<LiveData> | null {
 
 function totals({ site, valves, alarms }: LiveData): { text: string; open: number } {
   const bad = valves.filter((valve) => valve.ne107 !== 'good').length;
-  const text = `${site.valves} valves, ${bad} not good${site.stalled === 0 ? '' : `, ${site.stalled} without samples`}; ${figure(site.flow_L_min, 1)} L/min, ` +
+  const text = `${site.valves} valves, ${goodText(bad)}${site.stalled === 0 ? '' : `, ${site.stalled} without samples`}; ${figure(site.flow_L_min, 1)} L/min, ` +
     `${figure(site.hydraulic_power_W === null ? null : site.hydraulic_power_W / 1e3, 2)} kW hydraulic` +
     (site.store_trouble === '' ? '' : `; nothing is kept: ${site.store_trouble}`);
   return { text, open: alarms.filter(isOpen).length };

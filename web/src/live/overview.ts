@@ -1,7 +1,7 @@
 /** Every valve of the site on one card: flow, band, sign, the worst indicator, and a line of the last two minutes. */
 import { AlarmList } from './alarm_list';
 import {
-  duration, figure, inUnit, isOld, isOpen, readRecent, scaled, severity, short, signs, words, type Indicator, type Recent, type LiveData, type Valve,
+  duration, figure, isOld, isOpen, measured, readRecent, severity, signs, words, type Indicator, type Recent, type LiveData, type Valve,
 } from './api';
 import { element, setText } from './element';
 import { EventList } from './event_list';
@@ -113,8 +113,7 @@ class Card {
     if (valve.findings.length > 0) return `its samples: ${valve.findings[0]!}`;
     const worst = worstOf(valve);
     if (worst === undefined) return valve.status.length > 0 ? valve.status.map(words).join(', ') : 'nothing judged yet';
-    const { factor, unit } = inUnit(worst);
-    return `${words(worst.name)} ${short(scaled(worst.value, factor))} ± ${short(scaled(worst.uncertainty_95, factor))} ${unit}`;
+    return `${words(worst.name)} ${measured(worst)}`;
   }
 }
 

@@ -1,7 +1,8 @@
 /** One valve: its plot as it comes, what its monitor says, days of it, and how its source fares. */
 import { AlarmList } from './alarm_list';
 import {
-  clock, duration, figure, grouped, inUnit, readRecordings, scaled, short, signs, trendText, words, type Indicator, type LiveData, type Valve,
+  causesText, clock, duration, figure, grouped, inUnit, readRecordings, scaled, short, signs, trendText, words, type Alarm, type Indicator, type LiveData,
+  type Valve,
 } from './api';
 import { element, row, setText } from './element';
 import { EventList } from './event_list';
@@ -100,7 +101,7 @@ export class ValveView {
       setText(this.figures, 'There is no valve of this name at this site.');
       return;
     }
-    this.showAnswer(valve);
+    this.showAnswer(valve, alarms);
     this.plot.bits = Object.entries(site.status_bits).map(([name, mask]) => ({ name, mask }));
     const { shown, more, counters } = grouped(valve.indicators);
     this.indicators.replaceChildren(...shown.map(indicatorRow));
@@ -121,7 +122,7 @@ export class ValveView {
     if (performance.now() - this.asked > 5000) void this.showRecordings();
   }
 
-  private showAnswer(valve: Valve): void {
+  private showAnswer(valve: Valve, alarms: readonly Alarm[]): void {
     setText(this.sign, signs[valve.ne107]);
     this.sign.dataset['sign'] = valve.ne107;
     const power = valve.flow_L_min === null || valve.pressure_difference_bar === null ? null
@@ -130,10 +131,8 @@ export class ValveView {
       `${figure(valve.flow_upper_L_min, 2)}), ${figure(valve.pressure_difference_bar, 1)} bar, ${figure(power, 3)} kW; ` +
       `${valve.samples.toLocaleString('en')} samples, ${figure((valve.energy_J ?? 0) / 3.6e6, 4)} kWh through the edge`);
     setText(this.status, valve.status.length > 0 ? `Status: ${valve.status.map(words).join(', ')}` : 'Status: all is well');
-    const likely = valve.causes.map((one) => `${words(one.cause)} (odds ${short(one.odds)})`).join(', ');
-    const raised = valve.indicators.some((one) => one.state === 'raised');
-    setText(this.causes, likely === '' ? '' : `${raised ? 'Likely' : 'Suspected, not decided'}: ${likely}`);
-    this.causes.hidden = likely === '';
+    setText(this.causes, causesText(valve, alarms));
+    this.causes.hidden = this.causes.textContent === '';
     this.findings.replaceChildren(...valve.findings.map((one) => element('li', '', `Its samples: ${one}`)));
     this.findings.hidden = valve.findings.length === 0;
   }
