@@ -196,6 +196,17 @@ test('alarms are raised, acknowledged by a button, and stay acknowledged over a 
   const quiet = page.locator('.card:has-text("feed_udp")');
   assert.match(await quiet.locator('.flow').textContent(), /^last /);
   assert.match(await quiet.locator('.worst').textContent(), /^no samples for \d+ s/);
+  // Flow and band lie beside or above each other.
+  for (const width of [1400, 400]) {
+    await page.setViewportSize({ width, height: 900 });
+    const [flow, band] = await quiet.evaluate((card) => ['.flow', '.band'].map((name) => {
+      const text = document.createRange();
+      text.selectNodeContents(card.querySelector(name));
+      return text.getBoundingClientRect().toJSON();
+    }));
+    assert.ok(flow.right <= band.left || flow.bottom <= band.top, `${width}: ${JSON.stringify([flow, band])}`);
+  }
+  await page.setViewportSize({ width: 1280, height: 900 });
   assert.match(await page.locator('#totals').textContent(), /, 1 without samples;/);
   assert.equal(await page.locator('#news[role=status]').count(), 1);
   const said = page.locator('.alarm:has-text("feed_udp")').first();
@@ -281,6 +292,7 @@ test('a valve’s plot moves 20 to 50 times a second, goes stale with the progra
   assert.match(await page.locator('#stale').textContent(), /has not answered for \d+ s: what is shown is old/);
   await page.waitForSelector('canvas.plot.old');
   await page.waitForFunction(() => /^The last sample came ([2-9]|\d\d+) s ago\.$/m.test(document.querySelector('main').innerText));
+  assert.match(await page.locator('canvas.plot').getAttribute('aria-label'), /^flow rate, position and current of the last 30 seconds before the last sample, \d+ s ago; /);
   await picture(page, 'valve_stale');
   served = await start('site.toml', '--listen', `127.0.0.1:${served.port}`);
   await page.waitForSelector('#stale', { state: 'hidden', timeout: 20000 });

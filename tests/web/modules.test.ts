@@ -6,6 +6,7 @@ import { channelOf, missing, type PackedNumbers } from './src/packed_numbers';
 import { tickTexts } from './src/plot_options';
 import { causesText, goodText, grouped, measured, trendText, type Alarm, type Indicator, type Valve } from './src/live/api';
 import { sparkOf } from './src/live/overview';
+import { markStep, timeMark } from './src/live/plot';
 import { choices, ReadersUnits } from './src/readers_units';
 import { SampleTimes } from './src/sample_times';
 import { drawnEdge, drawnLine, drawnRange, drawnTimes } from './src/thinning';
@@ -223,6 +224,18 @@ test('a cause is likely where its alarm stands or an indicator is raised, and su
 test('valves that are all good are counted by that word', () => {
   assert.equal(goodText(0), 'all good');
   assert.equal(goodText(3), '3 not good');
+});
+
+test('marks of a low plot stand apart, and those of old samples do not end now', () => {
+  for (const length of [30, 44, 120, 300]) {
+    for (const range of [0.013, 0.5, 0.73, 2.9, 61]) {
+      const step = markStep(range, length);
+      assert.ok(length * step / range >= 16 - 1e-9, `${length} ${range}`);
+      assert.ok(step <= range || length < 32, `${length} ${range}`);
+    }
+  }
+  assert.deepEqual([30, 0].map((before) => timeMark(before, '')), ['−30 s', 'now']);
+  assert.deepEqual([30, 0].map((before) => timeMark(before, '62 s')), ['30 s before', '62 s ago']);
 });
 
 test('a card’s line and band break where no samples came', () => {

@@ -77,7 +77,7 @@ class Card {
     picture.append(this.area, this.line);
     const axis = element('span', 'axis', element('span', '', '−2 min'), element('span', '', '−1 min'), element('span', '', 'now'));
     axis.setAttribute('aria-hidden', 'true');
-    this.link.append(element('span', 'top', element('span', 'name', id), this.sign), this.flow, this.band, picture as unknown as HTMLElement, axis, this.worst);
+    this.link.append(element('span', 'top', element('span', 'name', id), this.sign), element('span', 'answer', this.flow, this.band), picture as unknown as HTMLElement, axis, this.worst);
   }
 
   /** What the program saw before the page was opened. */

@@ -1,7 +1,7 @@
 /** The last half minute of a valve on a canvas: flow with its band, position and current over time, and when which status was set. */
 import type { Point } from './stream';
 
-const window_s = 30, faultBits = 0xffff0000, rowHeight = 22, mostRows = 4;
+const window_s = 30, faultBits = 0xffff0000, rowHeight = 22, mostRows = 4, markRoom = 16;
 
 /** Of the status word. */
 export interface Bit {
@@ -36,7 +36,18 @@ export function niceStep(range: number): number {
   return power;
 }
 
+/** The step of marks on an axis of that length in pixels, which stand apart by what their text needs. */
+export const markStep = (range: number, length: number): number => niceStep(range * Math.max(1, 7.5 * markRoom / length));
+
+/** How long before the last sample, of which `age` is said where it is old. */
+export function timeMark(before: number, age: string): string {
+  if (before === 0) return age === '' ? 'now' : `${age} ago`;
+  return age === '' ? `\u2212${before} s` : `${before} s before`;
+}
+
 export class Plot {
+  /** How old the last sample is, in words; empty: it is new. */
+  age = '';
   readonly canvas = document.createElement('canvas');
   bits: readonly Bit[] = [];
 
@@ -71,6 +82,7 @@ export class Plot {
     said.forEach((bit, row) => this.strip(paint, bit, shown, end,
                                           { left: 56, top: height - strip + 8 + rowHeight * row, width: width - 64, height: rowHeight - 4 }));
     this.canvas.setAttribute('aria-label', `flow rate, position and current of the last ${window_s} seconds` +
+      `${this.age === '' ? '' : ` before the last sample, ${this.age} ago`}` +
       `${said.length === 0 ? '' : `; status: ${said.map((bit) => bit.name).join(', ')}`}`);
   }
 
@@ -100,7 +112,7 @@ export class Plot {
     paint.textAlign = 'right';
     paint.strokeStyle = colour('--rule');
     paint.lineWidth = 1;
-    const step = niceStep(highest - lowest);
+    const step = markStep(highest - lowest, box.height);
     for (let tick = Math.ceil(lowest / step) * step; tick <= highest; tick += step) {
       paint.beginPath();
       paint.moveTo(box.left, y(tick));
@@ -144,11 +156,11 @@ export class Plot {
   private times(paint: CanvasRenderingContext2D, box: { left: number; top: number; width: number; height: number }): void {
     paint.fillStyle = colour('--soft');
     paint.strokeStyle = colour('--rule');
-    const step = box.width < 420 ? 10 : 5;
+    const step = box.width >= 420 ? 5 : this.age === '' ? 10 : 15;
     for (let ago = 0; ago <= window_s; ago += step) {
       const x = box.left + box.width * (1 - ago / window_s);
       paint.textAlign = ago === 0 ? 'right' : ago === window_s ? 'left' : 'center';
-      paint.fillText(ago === 0 ? 'now' : `\u2212${ago} s`, x, box.top + 13);
+      paint.fillText(timeMark(ago, this.age), x, box.top + 13);
       paint.beginPath();
       paint.moveTo(x, box.top - 3);
       paint.lineTo(x, box.top + 1);

@@ -71,7 +71,11 @@ export class ValveView {
       this.stale.hidden = performance.now() - this.stream.arrived < staleAfter_ms;
       for (const each of [this.plot.canvas, this.figures, this.status, this.sign]) each.classList.toggle('old', !this.stale.hidden);
       this.age.hidden = this.stale.hidden || this.lastSample === null;
-      if (!this.age.hidden) setText(this.age, `The last sample came ${duration((performance.now() - this.lastSample!) / 1000)} ago.`);
+      const age = this.age.hidden ? '' : duration((performance.now() - this.lastSample!) / 1000);
+      setText(this.age, `The last sample came ${age} ago.`);
+      if (age === this.plot.age) return;
+      this.plot.age = age;
+      this.redraw();
     }, 250);
   }
 
