@@ -78,7 +78,8 @@ void ValveSources::start() {
   }
   std::vector<UdpValve> senders;
   for (std::size_t k = 0; k < places_.size(); ++k) {
-    if (has_sessions(k)) senders.push_back({site_.valves[k].id, places_[k]->intake.get(), places_[k]->after});
+    if (!has_sessions(k)) continue;
+    senders.push_back({site_.valves[k].id, places_[k]->intake.get(), places_[k]->after, site_.stalled_after_s});
   }
   if (site_.udp) udp_ = std::make_unique<UdpReceiver>(*site_.udp, site_.allow, senders);
   if (site_.mqtt_source) messages_ = std::make_unique<MessageSources>(*site_.mqtt_source);

@@ -41,9 +41,9 @@ void ValveWatch::look_at_source(const ValveView& valve, const SourceView& source
     add(source.stalled ? fmt::format("no samples{}{}", source.trouble.empty() ? "" : ": ", source.trouble)
                        : "samples come in");
     before.stalled = source.stalled;
-  } else if (source.trouble != before.trouble && !source.trouble.empty()) {
-    add(source.trouble);
+    if (source.stalled) before.trouble = source.trouble;
   }
+  if (source.trouble != before.trouble && !source.trouble.empty()) add(source.trouble);
   before.trouble = source.trouble;
   if (before.findings.empty()) {  // their figures change from time to time
     for (const std::string& one : source.findings) add("the sender's samples: " + one);

@@ -221,6 +221,7 @@ std::string site_json(const Engine& engine) {
              {"unreadable", udp.unreadable},
              {"unknown_valve", udp.unknown_valve},
              {"not_allowed", udp.not_allowed},
+             {"refused", udp.refused},
              {"unknown", unknown_of(engine.unknown_senders(), "datagrams")}}},
            {"mqtt_source", mqtt_source_of(engine)}});
 }

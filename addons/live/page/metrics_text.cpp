@@ -80,6 +80,7 @@ std::string input_metrics(const Engine& engine) {
   single("spoolflow_udp_datagrams_total", "Datagrams that came in.", udp.datagrams);
   single("spoolflow_udp_unreadable_total", "Datagrams that are none of spoolflow.", udp.unreadable);
   single("spoolflow_udp_unknown_valve_total", "Datagrams of no valve of this site.", udp.unknown_valve);
+  single("spoolflow_udp_refused_total", "Datagrams of a second sender of a valve's id.", udp.refused);
   single("spoolflow_udp_not_allowed_total", "Datagrams from addresses that may not send.", udp.not_allowed);
   if (engine.messages() != nullptr) {
     const MessageCounters messages = engine.messages()->counters();

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <arpa/inet.h>
 #include <array>
+#include <cstddef>
 #include <cstring>
 #include <netinet/in.h>
 #include <string>
 #include <sys/socket.h>
 #include <vector>
+
+#include "addons/live/sources/socket.hpp"
 
 namespace spoolflow::live {
 
@@ -24,6 +27,13 @@ inline std::string peer_host(const sockaddr_storage& peer) {
     ::inet_ntop(AF_INET, &in.sin_addr, text.data(), text.size());
   }
   return text.data();
+}
+
+/// The same with its port.
+inline Address peer_address(const sockaddr_storage& peer) {
+  in_port_t port = 0;  // at the same place of both kinds
+  std::memcpy(&port, reinterpret_cast<const char*>(&peer) + offsetof(sockaddr_in, sin_port), sizeof port);
+  return {peer_host(peer), ntohs(port)};
 }
 
 /// Whether it is in the list; an empty list holds everybody.

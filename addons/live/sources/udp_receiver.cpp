@@ -99,12 +99,14 @@ SampleBlock DatagramOrder::next(Datagram&& datagram, Intake& intake) {
 
 UdpReceiver::UdpReceiver(const Address& address, std::vector<std::string> allowed, const std::vector<UdpValve>& valves)
     : socket_(bind_socket(address, Transport::udp)), allowed_(std::move(allowed)) {
-  for (const UdpValve& valve : valves) senders_.emplace(valve.id, Sender{valve.intake, DatagramOrder(valve.after)});
+  for (const UdpValve& valve : valves) {
+    senders_.emplace(valve.id, Sender{valve.intake, DatagramOrder(valve.after), RivalSenders(valve.stalled_after_s)});
+  }
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
 UdpCounters UdpReceiver::counters() const {
-  return {datagrams_, unreadable_, unknown_valve_, not_allowed_};
+  return {datagrams_, unreadable_, unknown_valve_, not_allowed_, refused_};
 }
 
 void UdpReceiver::receive(std::span<const std::uint8_t> bytes, const sockaddr_storage& peer) {
@@ -118,6 +120,10 @@ void UdpReceiver::receive(std::span<const std::uint8_t> bytes, const sockaddr_st
   if (sender == senders_.end()) {
     ++unknown_valve_;
     unknown_.note(datagram->valve, peer_host(peer));
+    return;
+  }
+  if (sender->second.rivals.refuses({datagram->session, peer, steady_ns()}, *sender->second.intake)) {
+    ++refused_;
     return;
   }
   SampleBlock block = sender->second.order.next(std::move(*datagram), *sender->second.intake);

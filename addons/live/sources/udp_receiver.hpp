@@ -8,6 +8,7 @@
 
 #include "addons/live/sources/datagram.hpp"
 #include "addons/live/sources/intake.hpp"
+#include "addons/live/sources/rival_senders.hpp"
 #include "addons/live/sources/socket.hpp"
 #include "addons/live/sources/unknown_senders.hpp"
 
@@ -42,7 +43,8 @@ class DatagramOrder {
 struct UdpValve {
   std::string id;
   Intake* intake;
-  SourcePosition after;  ///< where it goes on
+  SourcePosition after;    ///< where it goes on
+  double stalled_after_s;  ///< as RivalSenders has it
 };
 
 /// What came to the socket and belongs to no valve.
@@ -51,6 +53,7 @@ struct UdpCounters {
   std::uint64_t unreadable = 0;
   std::uint64_t unknown_valve = 0;
   std::uint64_t not_allowed = 0;  ///< from an address that may not send
+  std::uint64_t refused = 0;      ///< of a second sender that uses a valve's id (rival_senders.hpp)
 };
 
 class UdpReceiver {
@@ -66,6 +69,7 @@ class UdpReceiver {
   struct Sender {
     Intake* intake;
     DatagramOrder order;
+    RivalSenders rivals;
   };
   void run(const std::stop_token& stop);
   void receive(std::span<const std::uint8_t> bytes, const sockaddr_storage& peer);
@@ -73,7 +77,7 @@ class UdpReceiver {
   BoundSocket socket_;
   std::vector<std::string> allowed_;
   std::map<std::string, Sender, std::less<>> senders_;
-  std::atomic<std::uint64_t> datagrams_ = 0, unreadable_ = 0, unknown_valve_ = 0, not_allowed_ = 0;
+  std::atomic<std::uint64_t> datagrams_ = 0, unreadable_ = 0, unknown_valve_ = 0, not_allowed_ = 0, refused_ = 0;
   UnknownSenders unknown_;
   std::jthread thread_;  ///< last: it uses the others
 };

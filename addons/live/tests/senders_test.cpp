@@ -1,6 +1,9 @@
 /// What comes from real senders by TCP, UDP and pipes, and what does not.
+#include <algorithm>
+#include <chrono>
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <thread>
 #include <unistd.h>
 
 #include <gmock/gmock.h>
@@ -87,6 +90,36 @@ TEST_F(SendersTest, AnswersDatagramsAndCountsWhatIsNone) {
   EXPECT_EQ(counters.repeated, 20U);
   EXPECT_EQ(engine.view(0).samples, 40U);
   EXPECT_GT(engine.view(0).answer.flow_m3_per_s, 0);
+}
+
+TEST_F(SendersTest, TwoSendersOfOneIdAreNoMixtureAndAreReportedOnce) {
+  SiteSettings settings = site({{"u", UdpSettings{}}});
+  settings.stalled_after_s = 30;  // the test's machine may be slow
+  Engine engine(settings, "test");
+  engine.start();
+  std::uint64_t sequence = 0;
+  for (; sequence < 200; sequence += 20) {
+    send_datagrams(engine, sequence, 20, 7);
+    send_datagrams(engine, 1000 + sequence, 20, 8);  // of the second: the first of this session comes as a new sender
+  }
+  ASSERT_TRUE(comes_true([&] { return engine.udp_counters().datagrams == 20; }));
+  ASSERT_TRUE(comes_true([&] { return engine.view(0).samples == 220; }));  // one block of session 7, then 8 alone
+  EXPECT_EQ(engine.udp_counters().refused, 9U);
+  const std::string trouble = engine.source(0).trouble;
+  EXPECT_THAT(trouble, HasSubstr("two senders use this id: samples of 127.0.0.1:"));
+  EXPECT_THAT(trouble, HasSubstr("(session 8) are taken, those of 127.0.0.1:"));
+  EXPECT_THAT(trouble, HasSubstr("(session 7) are refused"));
+  const auto told = [&] {
+    const std::vector<Event> all = engine.events();
+    return std::count_if(all.begin(), all.end(), [&](const Event& one) { return one.text == trouble; });
+  };
+  ASSERT_TRUE(comes_true([&] { return told() == 1; }));
+  for (; sequence < 600; sequence += 20) {
+    send_datagrams(engine, sequence, 20, 7);
+    send_datagrams(engine, 1000 + sequence, 20, 8);
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  }
+  EXPECT_EQ(told(), 1);
 }
 
 TEST_F(SendersTest, ReadsAPipeAgainAndAgain) {

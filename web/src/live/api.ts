@@ -131,7 +131,7 @@ export interface Site {
   store_mended: { time: string; text: string } | null;
   /** Of the status word. */
   status_bits: Record<string, number>;
-  udp: { port: number; datagrams: number; unreadable: number; unknown_valve: number; not_allowed: number;
+  udp: { port: number; datagrams: number; unreadable: number; unknown_valve: number; not_allowed: number; refused: number;
     unknown: (Stranger & { datagrams: number })[] };
   /** The broker that samples come from. */
   mqtt_source: { broker: string; connected: boolean; messages: number; unknown_valve: number;
@@ -249,6 +249,9 @@ export function isOld({ source }: Valve): boolean {
   const longest_s = 5;
   return source.stalled || (source.age_s ?? Infinity) > longest_s;
 }
+
+/** That two senders use the valve's id, while its samples come; a trouble of other sources is that none come. */
+export const rivalText = (valve: Valve): string => isOld(valve) || valve.source.kind !== 'udp' ? '' : valve.source.trouble;
 
 /** "12 s", "5 min", "3 h", "2 days". */
 export function duration(seconds: number): string {

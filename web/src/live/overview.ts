@@ -1,7 +1,7 @@
 /** Every valve of the site on one card: flow, band, sign, the worst indicator, and a line of the last two minutes. */
 import { AlarmList } from './alarm_list';
 import {
-  duration, figure, isOld, isOpen, measured, readRecent, severity, signs, words, type Indicator, type Recent, type LiveData, type Valve,
+  duration, figure, isOld, isOpen, measured, readRecent, rivalText, severity, signs, words, type Indicator, type Recent, type LiveData, type Valve,
 } from './api';
 import { element, setText } from './element';
 import { EventList } from './event_list';
@@ -94,9 +94,10 @@ class Card {
     setText(this.flow, `${old && valve.flow_L_min !== null ? 'last ' : ''}${figure(valve.flow_L_min, 2)} L/min`);
     setText(this.band, `${figure(valve.flow_lower_L_min, 2)} to ${figure(valve.flow_upper_L_min, 2)}`);
     setText(this.worst, this.said(valve));
-    this.worst.dataset['raised'] = String(valve.findings.length > 0 || valve.indicators.some((one) => one.state === 'raised'));
-    this.worst.title = valve.findings.join('\n');
-    this.worst.dataset['finding'] = String(!old && valve.findings.length > 0);
+    const said = [...valve.findings, rivalText(valve)].filter((one) => one !== '');
+    this.worst.dataset['raised'] = String(said.length > 0 || valve.indicators.some((one) => one.state === 'raised'));
+    this.worst.title = said.join('\n');
+    this.worst.dataset['finding'] = String(!old && said.length > 0);
     this.seconds.push(old ? { flow: null, lower: null, upper: null }
       : { flow: valve.flow_L_min, lower: valve.flow_lower_L_min, upper: valve.flow_upper_L_min });
     if (this.seconds.length > history) this.seconds.shift();
@@ -111,6 +112,7 @@ class Card {
       return `no samples${age_s === null ? '' : ` for ${duration(age_s)}`}${trouble === '' ? '' : `: ${trouble}`}`;
     }
     if (valve.findings.length > 0) return `its samples: ${valve.findings[0]!}`;
+    if (rivalText(valve) !== '') return rivalText(valve);
     const worst = worstOf(valve);
     if (worst === undefined) return valve.status.length > 0 ? valve.status.map(words).join(', ') : 'nothing judged yet';
     return `${words(worst.name)} ${measured(worst)}`;

@@ -1,6 +1,6 @@
 /** The site as a whole: totals, what they were over the last minutes, how each source fares, all alarms. */
 import { AlarmList } from './alarm_list';
-import { clock, figure, isOpen, severity, type LiveData, type Output, type Valve } from './api';
+import { clock, figure, isOpen, rivalText, severity, type LiveData, type Output, type Valve } from './api';
 import { element, row, setText } from './element';
 
 const sourceColumns = ['valve', 'source', 'samples/s', 'age [s]', 'dropped', 'lost', 'repeated', 'unreadable', 'connections', 'trouble'];
@@ -89,7 +89,7 @@ export class SiteView {
     const { udp, mqtt_source: mqtt } = site;
     this.datagrams.hidden = udp.port === 0;
     setText(this.datagrams, `UDP port ${udp.port}: ${udp.datagrams} datagrams, ${udp.unreadable} unreadable, ` +
-      `${udp.unknown_valve} of unknown valves, ${udp.not_allowed} not allowed`);
+      `${udp.unknown_valve} of unknown valves, ${udp.not_allowed} not allowed, ${udp.refused} of a second sender`);
     this.messages.hidden = mqtt === null;
     setText(this.messages, mqtt === null ? '' : `MQTT ${mqtt.broker}: ${mqtt.connected ? 'connected' : 'not connected'}, ` +
       `${mqtt.messages} messages, ${mqtt.unknown_valve} of unknown valves`);
@@ -126,7 +126,7 @@ export class SiteView {
                    figure(of.age_s, 1), of.dropped, of.lost, of.repeated, of.unreadable, of.connections,
                    of.stalled && of.trouble === '' ? 'no samples' : of.trouble].map(String);
     cells.forEach((cell, k) => setText(cell, texts[k]!));
-    const bad = of.stalled || of.dropped > 0 || of.lost > 0 || of.unreadable > 0;
+    const bad = of.stalled || of.dropped > 0 || of.lost > 0 || of.unreadable > 0 || rivalText(valve) !== '';
     cells[0]!.parentElement!.dataset['bad'] = String(bad);
   }
 }

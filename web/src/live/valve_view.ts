@@ -1,7 +1,7 @@
 /** One valve: its plot as it comes, what its monitor says, days of it, and how its source fares. */
 import { AlarmList } from './alarm_list';
 import {
-  causesText, clock, duration, figure, grouped, inUnit, readRecordings, scaled, short, signs, trendText, words, type Alarm, type Indicator, type LiveData,
+  causesText, clock, duration, figure, grouped, inUnit, readRecordings, rivalText, scaled, short, signs, trendText, words, type Alarm, type Indicator, type LiveData,
   type Valve,
 } from './api';
 import { element, row, setText } from './element';
@@ -137,8 +137,10 @@ export class ValveView {
     setText(this.status, valve.status.length > 0 ? `Status: ${valve.status.map(words).join(', ')}` : 'Status: all is well');
     setText(this.causes, causesText(valve, alarms));
     this.causes.hidden = this.causes.textContent === '';
-    this.findings.replaceChildren(...valve.findings.map((one) => element('li', '', `Its samples: ${one}`)));
-    this.findings.hidden = valve.findings.length === 0;
+    const rival = rivalText(valve);
+    const found = [...valve.findings.map((one) => `Its samples: ${one}`), ...(rival === '' ? [] : [`Its source: ${rival}`])];
+    this.findings.replaceChildren(...found.map((one) => element('li', '', one)));
+    this.findings.hidden = found.length === 0;
   }
 
   private async showRecordings(): Promise<void> {
