@@ -123,7 +123,9 @@ void SiteKeeper::keep(const Instant& now, bool with_indicators) {
 void SiteKeeper::report(const std::string& trouble) {
   const std::string before = view().trouble;
   if (!trouble.empty() && trouble != before) journal_.note(trouble);
-  if (trouble.empty() && !before.empty()) journal_.note("the store keeps what comes again");
+  if (trouble.empty() && !before.empty()) {
+    journal_.note("the store works again; what came while it failed is in it, the flow as one row");
+  }
   const std::lock_guard lock(view_mutex_);
   view_.trouble = trouble;
 }

@@ -140,6 +140,10 @@ TEST_F(EngineTest, AFullDiskStopsKeepingNotWatching) {
   EXPECT_TRUE(reported);
   EXPECT_TRUE(watched);
   EXPECT_TRUE(comes_true([&] { return engine.store_view().trouble.empty(); }));
+  EXPECT_TRUE(comes_true([&] {
+    return engine.events().back().text ==
+           "the store works again; what came while it failed is in it, the flow as one row";
+  }));
   engine.stop();
   std::int64_t samples = 0;
   read_history(kept.store, "t", 0, std::int64_t{1} << 60,
