@@ -1,5 +1,6 @@
 /// `spoolflow live`: valves at work, watched until the program is ended; `spoolflow account`: who may see its page.
 #include <cctype>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -7,6 +8,7 @@
 #include <string>
 #include <termios.h>
 #include <unistd.h>
+#include <variant>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -20,6 +22,7 @@
 #include "addons/live/page/answer.hpp"
 #include "addons/live/page/plotjuggler.hpp"
 #include "addons/live/program/live_commands.hpp"
+#include "addons/live/sources/socket.hpp"
 #include "spoolflow/apps/addon_programs.hpp"
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/terminal/interruption.hpp"
@@ -73,6 +76,17 @@ void check_publishing(const live::SiteSettings& site) {
   }
 }
 
+/// A store is made where its site can begin: not for one whose page or sources find their port in use.
+void check_ports(const live::SiteSettings& site) {
+  if (site.store.empty() || std::filesystem::exists(site.store)) return;
+  (void)live::bind_socket(site.page.listen, live::Transport::tcp);
+  if (site.udp) (void)live::bind_socket(*site.udp, live::Transport::udp);
+  for (const live::ValveSettings& valve : site.valves) {
+    if (const auto* tcp = std::get_if<live::TcpSettings>(&valve.source))
+      (void)live::bind_socket(tcp->listen, live::Transport::tcp);
+  }
+}
+
 void live_command(const LiveArguments& arguments) {
   live::SiteSettings site = arguments.site.empty() ? live::demo_site() : live::read_site(arguments.site);
   if (!arguments.listen.empty()) site.page.listen = live::read_address(arguments.listen, "--listen");
@@ -83,6 +97,7 @@ void live_command(const LiveArguments& arguments) {
   if (!site.fleet.servers.empty() && !publisher_maker()) go_on_as("fleet");
   live::PageSettings page = site.page;
   live::check_reach(page);
+  check_ports(site);
   const InterruptionPause held_back;  // in this thread, and in all that it starts
   const auto fork_server = recording::fork_server_for(replayed_recordings(site));
   live::Engine engine(std::move(site), fmt::format("spoolflow {}", tool_version()));

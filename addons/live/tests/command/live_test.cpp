@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 #include <unistd.h>
 
@@ -108,6 +109,17 @@ TEST_F(Live, WhatCannotBeUsedIsRefusedAtOnce) {
   const Answer second = run("live --listen 127.0.0.1:0 --store s.sqlite");
   EXPECT_EQ(second.status, 2);
   EXPECT_THAT(second.message, HasSubstr("another spoolflow live is running on it"));
+}
+
+TEST_F(Live, APortThatIsInUseLeavesNoStoreBehind) {
+  RunningCommand first(folder, {"live", "--listen", "127.0.0.1:0"});
+  (void)first.message_line();  // nothing is kept
+  const std::string page = first.message_line();
+  const std::string port = page.substr(page.rfind(':') + 1, page.rfind("/ ;") - page.rfind(':') - 1);
+  const Answer second = run("live --listen 127.0.0.1:" + port + " --store s.sqlite");
+  EXPECT_EQ(second.status, 2);
+  EXPECT_THAT(second.message, HasSubstr("end the program that listens there or choose another port"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "s.sqlite"));
 }
 
 }  // namespace
