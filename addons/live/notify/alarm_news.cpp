@@ -194,7 +194,7 @@ std::string text_of(const GatheredNews& gathered, const std::string& site) {
     const Alarm& alarm = one.alarm;
     out += fmt::format("\n{}: {}, since {}{}\n", name(one.kind), phrase(alarm), utc(alarm.raised_ms),
                        alarm.gone_ms == 0 ? "" : ", gone " + utc(alarm.gone_ms));
-    const AlarmWords* const known = words_for(alarm.cause);
+    const AlarmWords* const known = words_for(alarm.cause, alarm.sign);
     if (known != nullptr) out += fmt::format("{}\n{}\n", known->meaning, known->remedy);
     out += fmt::format("Seen: {}\n", alarm.text);
   }

@@ -21,7 +21,7 @@ Json json_of(const Alarm& alarm) {
   for (const AlarmComment& one : alarm.comments) {
     comments.push_back({{"time", utc(one.at_ms)}, {"by", one.by}, {"text", one.text}});
   }
-  const AlarmWords* const words = words_for(alarm.cause);
+  const AlarmWords* const words = words_for(alarm.cause, alarm.sign);
   const auto said = [&](std::string_view AlarmWords::*member) {
     return words == nullptr || (words->*member).empty() ? Json(nullptr) : Json(words->*member);
   };

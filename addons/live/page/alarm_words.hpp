@@ -45,8 +45,14 @@ inline constexpr std::array<AlarmWords, 12> alarm_words{{
      "Check coil, position sensor and their cables; the status names the channel.", ""},
 }};
 
-/// Null where the cause is none of them.
-[[nodiscard]] constexpr const AlarmWords* words_for(std::string_view cause) {
+/// Of NE 107 F: the status states it, and no course of an indicator does.
+inline constexpr AlarmWords failed_position_sensor{
+    "position_sensor", "The position signal jumps as no spool can, or stands still while the current moves.",
+    "Check cable, connector and demodulator of the position sensor.", ""};
+
+/// Of an alarm's cause and sign. Null where the cause is none of them.
+[[nodiscard]] constexpr const AlarmWords* words_for(std::string_view cause, std::string_view sign) {
+  if (cause == failed_position_sensor.cause && sign == "F") return &failed_position_sensor;
   for (const AlarmWords& each : alarm_words) {
     if (each.cause == cause) return &each;
   }

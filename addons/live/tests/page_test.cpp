@@ -11,6 +11,7 @@
 #include "addons/live/demo_model.hpp"
 #include "addons/live/engine.hpp"
 #include "addons/live/http/server.hpp"
+#include "addons/live/page/alarm_text.hpp"
 #include "addons/live/page/answer.hpp"
 #include "addons/live/page/plot_frame.hpp"
 #include "addons/live/tests/temporary_folder.hpp"
@@ -178,6 +179,15 @@ TEST(PlotFrame, HoldsThePointsInTheReadersUnits) {
   EXPECT_EQ(time_s, 2.5);
   EXPECT_NEAR(flow, 60.0F, 1e-4F);
   EXPECT_EQ(status, 6U);
+}
+
+TEST(AlarmText, APositionSensorThatFailedIsNotSaidToReadAnotherZero) {
+  Alarm alarm{.valve = "a", .cause = "position_sensor", .sign = "S"};
+  EXPECT_EQ(json_of(alarm)["indicator"], "position_zero");
+  alarm.sign = "F";
+  EXPECT_TRUE(json_of(alarm)["indicator"].is_null());
+  EXPECT_THAT(json_of(alarm)["meaning"].get<std::string>(), HasSubstr("jumps as no spool can"));
+  EXPECT_THAT(json_of(alarm)["remedy"].get<std::string>(), HasSubstr("connector"));
 }
 
 }  // namespace
