@@ -30,11 +30,18 @@ void report(const recording::ReadNotes& notes, const std::string& file) {
 }
 
 /// FOLDER/NAME.csv for each recording NAME.*, or with the format's suffix. Throws OutputError where two would be the
-/// same.
+/// same, and where the folder has the name of a table and is not there.
 std::vector<std::filesystem::path> targets_in(const std::filesystem::path& folder,
                                               const std::vector<std::string>& recordings,
                                               std::optional<recording::TableFormat> format) {
   const std::string extension = fmt::format(".{}", suffix(format.value_or(recording::TableFormat::csv)));
+  const std::string named = folder.extension().string();
+  if (!named.empty() && recording::table_format(named.substr(1)) && !std::filesystem::is_directory(folder)) {
+    throw OutputError(
+        fmt::format("the estimates of several recordings are files in a folder, and {} is named as one "
+                    "file; name a folder, or estimate one recording",
+                    folder.string()));
+  }
   std::map<std::filesystem::path, std::string> made_from;
   std::vector<std::filesystem::path> targets;
   for (const std::string& recording : recordings) {

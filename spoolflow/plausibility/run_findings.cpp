@@ -173,6 +173,14 @@ void try_swaps(RunTrial& trial, const std::vector<Deviation>& before, std::optio
   exchange();
 }
 
+/// A solenoid's current has one direction, which is > 0.
+bool has_its_sign(Channel channel, const std::vector<double>& values) {
+  if (channel != Channel::current && channel != Channel::current_a && channel != Channel::current_b) return false;
+  double sum = 0;
+  for (const double value : values) sum += std::isfinite(value) ? value : 0;
+  return sum > 0;
+}
+
 std::optional<RunExplanation> best_explanation(RunTrial& trial, const std::vector<Deviation>& before) {
   std::optional<RunExplanation> best;
   for (const Channel channel :
@@ -183,6 +191,7 @@ std::optional<RunExplanation> best_explanation(RunTrial& trial, const std::vecto
     const std::string_view name = shown_name(channel);
     for (const RecordingError& error : usual_recording_errors(channel)) {
       if (error.from_other_end && trial.both()) continue;
+      if (error.factor < 0 && has_its_sign(channel, kept)) continue;
       for (double& value : trial.run.column(channel)) value = error.undone(value, trial.stroke_m());
       keep_better(best, trial, before, fmt::format("{} looks {}: with {}", name, error.looks, error.undo),
                   channel == Channel::position);

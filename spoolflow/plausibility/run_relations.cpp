@@ -53,7 +53,8 @@ void add_opening(std::vector<Deviation>& to, const HydraulicCurves& hydraulics, 
   const bool hardly_opens = highest_m < least_opening * hydraulics.stroke_m &&
                             (!run.has(Channel::current) || asks_for_more(hydraulics, magnetics, run));
   to.push_back({.of = largest_opening,
-                .shown = fmt::format("{:.3g} mm", units::mm_from_m(highest_m)),
+                .shown = fmt::format("{:.3g} mm{}", units::mm_from_m(highest_m),
+                                     hardly_opens ? " under a current that opens it" : ""),
                 .over_limit = hardly_opens ? suspicious : 0,
                 .file = file_of(run)});
 }

@@ -135,7 +135,8 @@ class Guesser {
  private:
   /// A position may be in volts: the raw signal of its sensor.
   [[nodiscard]] bool free(std::size_t column, units::Dimension dimension) const {
-    return !used_[column] &&
+    const std::optional<Channel> said = columns_[column].said;
+    return !used_[column] && (!said || recording::dimension(*said) == dimension) &&
            (stated_as(columns_[column], dimension) ||
             (dimension == units::Dimension::length && stated_as(columns_[column], units::Dimension::voltage)));
   }

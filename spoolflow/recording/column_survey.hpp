@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct SurveyedColumn {
   TextCells text{};
   InfiniteSamples infinite{};
   std::uint64_t rows = 0;           ///< with the missing ones; only columns of as many are compared
+  std::optional<Channel> said{};    ///< what a word of its name stands for
   bool rises = false;               ///< each number lies above the one before
   std::vector<double> beginning{};  ///< at most 20,000 samples; NaN where one is missing
 };
@@ -39,7 +41,8 @@ struct DataGuess {
 /// the column among those that are not known which behaves like it: time rises with every sample; the current rises
 /// before the position does; the voltage goes along with the current, not after it; an oil temperature drifts slowly
 /// between 5 and 120 degC or 278 and 393 K. None where no column does, and none where several rise with every sample or
-/// drift: their order in the file says nothing. The unit of a column, where stated, must fit.
+/// drift: their order in the file says nothing. The unit of a column, where stated,
+/// must fit, and a word of its name must not stand for another channel.
 [[nodiscard]] std::map<Channel, DataGuess> guess_by_data(const std::vector<SurveyedColumn>& columns,
                                                          std::map<Channel, std::size_t> known);
 

@@ -202,7 +202,10 @@ void guess_unit_of_time(Inspection& out, const std::vector<SurveyedColumn>& colu
 
 /// Guesses by data what names do not state, and says of every column what it is taken for.
 void look_at_columns(Inspection& out, const Proposal& proposal, std::vector<SurveyedColumn> columns) {
-  for (std::size_t k = 0; k < columns.size(); ++k) columns[k].unit = out.contents.units[k];
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    columns[k].unit = out.contents.units[k];
+    columns[k].said = proposal.said[k];
+  }
   std::map<Channel, std::size_t> known;
   for (const auto& [channel, source] : out.proposal.sources) {
     const auto found = std::ranges::find(out.contents.columns, source.column);

@@ -231,7 +231,9 @@ void propose_by_words(Proposal& out, const FileContents& contents, const std::ve
   const auto known = [&](Channel channel) { return out.map.sources.contains(channel); };
   std::map<Channel, std::vector<std::pair<std::size_t, std::string>>> found;
   for (std::size_t k = 0; k < names.size(); ++k) {
-    if (const auto word = channel_among(names[k]); word && !taken[k]) found[word->channel].emplace_back(k, word->word);
+    const auto word = channel_among(names[k]);
+    out.said.push_back(word ? std::optional(word->channel) : std::nullopt);
+    if (word && !taken[k]) found[word->channel].emplace_back(k, word->word);
   }
   for (const auto& [channel, columns] : found) {
     const bool of_coils = (channel == Channel::current && known(Channel::current_a)) ||
@@ -241,6 +243,18 @@ void propose_by_words(Proposal& out, const FileContents& contents, const std::ve
     out.map.sources.emplace(channel, ChannelSource{contents.columns[column], names[column].unit, 1.0, 0.0, {}});
     out.by_word.emplace(channel, word);
   }
+}
+
+/// "Current, A" is the current of coil a beside one of coil b; alone its A is the unit.
+void take_lone_letter_for_unit(Proposal& out) {
+  std::map<Channel, ChannelSource>& sources = out.map.sources;
+  const auto lettered = sources.find(Channel::current_a);
+  if (lettered == sources.end() || !lettered->second.unit.empty() || out.as_well.contains(Channel::current_a)) return;
+  if (sources.contains(Channel::current_b) || sources.contains(Channel::current)) return;
+  ChannelSource alone = lettered->second;
+  alone.unit = "A";
+  sources.erase(lettered);
+  sources.emplace(Channel::current, std::move(alone));
 }
 
 }  // namespace
@@ -281,6 +295,7 @@ Proposal propose_channels(const FileContents& contents, const std::vector<bool>&
       }
     }
   }
+  take_lone_letter_for_unit(out);
   propose_by_words(out, contents, names, own);
   return out;
 }

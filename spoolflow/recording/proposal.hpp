@@ -1,6 +1,7 @@
 #pragma once
 /// Guesses which foreign column is which channel, from names and units.
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct Proposal {
   /// Of channels that no column is called by alone, but for the time: the word of the only one whose name holds it
   /// among others, such as "PLC.rPosition".
   std::map<Channel, std::string> by_word{};
+  /// Of each column of the file the only channel that words of its name stand for.
+  std::vector<std::optional<Channel>> said{};
   /// The pressures of all four ports are named by their port ("pA"). Without one of them, those at P and B are taken
   /// for pressure_upstream and pressure_downstream.
   bool all_ports = false;

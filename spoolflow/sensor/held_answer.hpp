@@ -62,4 +62,13 @@ SPOOLFLOW_INLINE constexpr void widen_held(const ObserverParameters<T>& valve, c
   open_band(held, {now.flow_lower_m3_per_s, now.flow_upper_m3_per_s}, at.seen, time_step_s);
 }
 
+/// The most that a direction passes [m3/s]: wide open, at the highest pressure difference that is answered.
+template <class T>
+constexpr T most_flow(const ObserverParameters<T>& valve) {
+  const MeteringEdge<T>& edges = valve.edge;
+  const T highest_Pa = valve.highest_pressure_difference_Pa();
+  return edges.at(edges.temperature_K.at(1), highest_Pa, edges.position_m.at(edge_positions - 1)).conductance *
+         sqrt(highest_Pa);
+}
+
 }  // namespace spoolflow::sensor

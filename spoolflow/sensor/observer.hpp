@@ -266,6 +266,7 @@ SPOOLFLOW_NOINLINE constexpr void hold(ObserverState<T>& state, const Sample<T>&
                {seen ? measured_m : state.position.last_m, seen}, time_step_s, state.last);
   }
   state.started = state.started && !leapt;
+  if (!state.started) open_band(state.last, {T(0), most_flow(valve)}, true, T(0));
   state.last.status = unusable(sample) | when(leapt, Status::time_fault);
   admit_other_direction(valve, state.oil.temperature_K, seen ? measured_m : T(0), state.last);
 }
@@ -285,10 +286,10 @@ constexpr void hold(const ObserverParameters<T>& valve, ObserverState<T>& state,
 template <class T>
 constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                   const Sample<T>& measured) {
-  bool begins = !state.started, late = false;
+  bool begins = !state.started, irregular = false;
   if (unlikely(!ordinary(measured))) {
+    irregular = is_irregular(measured.time_step_s) && !(begins && is_zero(measured.time_step_s));
     begins = begins || time_leapt(measured.time_step_s);
-    late = is_late(measured.time_step_s);
     if (unusable(measured) != Status::none) {
       detail::hold(state, measured, valve);
       return state.last;
@@ -303,7 +304,7 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
   follow_temperature(state.oil, sample.oil_temperature_K, schedule.oil_temperature);
   detail::observe(valve, state, sample, position, dither, schedule, T(0), begins);
   admit_other_direction(valve, state.oil.temperature_K, position.position_m, state.last);
-  if (late) state.last.status |= Status::time_fault;
+  if (irregular) state.last.status |= Status::time_fault;
   if (unlikely(state.held_currents > 0)) state.last.status |= Status::current_fault;
   return state.last;
 }

@@ -78,6 +78,8 @@ TEST_F(EstimateSeveral, RefusesTwoOfOneNameAndStandardStreams) {
   EXPECT_THAT(run("estimate " + model + " run0.csv other/run0.csv -o together").message, HasSubstr("other/run0.csv"));
   EXPECT_EQ(run("estimate " + model + " run0.csv - -o together < run1.csv").status, 2);
   EXPECT_EQ(run("estimate " + model + " run0.csv run1.csv -o -").status, 2);
+  EXPECT_EQ(run("estimate " + model + " run0.csv run1.csv -o both.csv").status, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder / "both.csv"));
   EXPECT_FALSE(std::filesystem::exists(folder / "together"));
   // The recordings themselves are no place for their estimates.
   EXPECT_EQ(run("estimate " + model + " run0.csv run1.csv -o .").status, 2);

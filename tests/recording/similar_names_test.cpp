@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "spoolflow/recording/files/header_name.hpp"
+#include "spoolflow/recording/proposal.hpp"
 #include "spoolflow/recording/reader.hpp"
 #include "tests/recording/refusal.hpp"
 #include "tests/recording/temporary_file.hpp"
@@ -112,6 +113,25 @@ TEST(OtherNames, OfAChannelThatIsNeededStandInItsRefusal) {
   const TemporaryFile file("run.csv", "time_s,coil current (mA),position_mm\n0,500,0.1\n0.001,500,0.1\n");
   EXPECT_THAT(refusal([&] { (void)reader_of(file); }),
               HasSubstr("channel current is missing; 'coil current (mA)' may be it"));
+}
+
+ChannelMap proposed(const std::vector<std::string>& columns) {
+  FileContents contents;
+  contents.columns = contents.leaves = columns;
+  contents.units.resize(columns.size());
+  return propose_channels(contents).map;
+}
+
+TEST(OtherNames, OfOneCurrentWithAnAHoldItsUnitAndOfTwoTheirCoils) {
+  for (const char* name : {"Current, A", "Current A", "Coil current A", "Strom, A"}) {
+    const ChannelMap map = proposed({"Time, s", name, "Position, mm"});
+    ASSERT_TRUE(map.sources.contains(Channel::current)) << name;
+    EXPECT_EQ(map.sources.at(Channel::current).unit, "A") << name;
+    EXPECT_FALSE(map.sources.contains(Channel::current_a)) << name;
+  }
+  const ChannelMap both = proposed({"Time, s", "Current A", "Current B", "Position, mm"});
+  EXPECT_TRUE(both.sources.contains(Channel::current_a) && both.sources.contains(Channel::current_b));
+  EXPECT_FALSE(both.sources.contains(Channel::current));
 }
 
 TEST(OtherNames, OfChannelsThatAreReadAreNoNews) {

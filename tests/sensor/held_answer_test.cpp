@@ -1,5 +1,7 @@
 /// The band of answers that are held while samples are missing, against what the valve does meanwhile.
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -141,6 +143,54 @@ TEST(HeldAnswer, OfAWholeValveOpensToTheSideOnWhichItsPositionIsSeen) {
   EXPECT_GT(state.open.last.flow_lower_m3_per_s, 0) << "the spool stands where it stood";
   step(whole, state, {every_s, 0, lost, 0, 0, -1.4e-3, 313});
   EXPECT_LT(state.open.last.flow_lower_m3_per_s, -law.flow_m3_per_s(1.4e-3, 80e5, 313));
+}
+
+/// Samples of which none can be estimated.
+const std::vector<Sample<double>>& incomplete() {
+  static const std::vector<Sample<double>> out{{every_s, 1, 0, lost, 313},
+                                               {every_s, lost, 0, 1e-3, 313},
+                                               {lost, 1, 0, 1e-3, 313},
+                                               {INFINITY, 1, 0, 1e-3, 313},
+                                               {-every_s, lost, 0, lost, lost}};
+  return out;
+}
+
+TEST(HeldAnswer, BeforeTheFirstCompleteSampleHoldsAllThatMayFlow) {
+  const ObserverParameters<double> valve = closed_form_observer<double>(closed_form);
+  const WholeValveParameters<double> whole{&valve, &valve};
+  const auto tables = laid_out(linear_valve());
+  const double most = 0.99 * closed_form.flow_m3_per_s(ClosedFormValve::stroke_m, ClosedFormValve::highest_Pa, 313);
+  for (const Sample<double>& sample : incomplete()) {
+    ObserverState<double> state{};
+    step(valve, state, sample);
+    EXPECT_GT(state.last.flow_upper_m3_per_s, most) << sample.time_step_s;
+    EXPECT_LE(state.last.flow_lower_m3_per_s, 0) << sample.time_step_s;
+    EXPECT_NE(static_cast<std::uint32_t>(state.last.status) & fault_bits, 0u);
+
+    WholeValveState<double> both{};
+    step(whole, both,
+         {sample.time_step_s, 0, sample.current_A, 0, sample.voltage_V, sample.position_m, sample.oil_temperature_K});
+    EXPECT_GT(both.open.last.flow_upper_m3_per_s, most) << sample.time_step_s;
+    EXPECT_LT(both.open.last.flow_lower_m3_per_s, -most) << sample.time_step_s;
+
+    CondensedState<double> condensed;
+    step(tables, condensed, sample);
+    CondensedState<double> complete;
+    const double opened = step(tables, complete, {every_s, 3.2, 12, 1e-3, 323}).flow_m3_per_s;
+    EXPECT_GE(condensed.last.flow_upper_m3_per_s, opened) << sample.time_step_s;
+  }
+}
+
+TEST(HeldAnswer, AfterALeapOfTimeHoldsAllThatMayFlowUntilTheNextCompleteSample) {
+  const ObserverParameters<double> valve = closed_form_observer<double>(closed_form);
+  const Course course = until_they_are_missing();
+  ObserverState<double> state{};
+  for (const ValveSample& sample : ClosedFormRun(closed_form, course).sampled(course.end_s(), every_s))
+    step(valve, state, sample.measured);
+  step(valve, state, {2, lost, 0, 1.4e-3, 313});
+  EXPECT_LE(state.last.flow_lower_m3_per_s, 0);
+  EXPECT_GT(state.last.flow_upper_m3_per_s,
+            0.99 * closed_form.flow_m3_per_s(ClosedFormValve::stroke_m, ClosedFormValve::highest_Pa, 313));
 }
 
 TEST(HeldAnswer, OfTheCondensedSensorOpensToAllThatMayFlow) {

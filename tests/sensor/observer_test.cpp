@@ -201,6 +201,16 @@ TEST(Observer, IsResetAndReportsItWhereTimeLeaps) {
   }
 }
 
+TEST(Observer, ReportsATimeThatStandsStill) {
+  const ObserverParameters<float> valve = closed_form_observer<float>(closed_form);
+  ObserverState<float> state{};
+  const auto take = [&](float time_step_s) { return step(valve, state, {time_step_s, 1.2F, 10, 1e-3F, 313}).status; };
+  EXPECT_FALSE(has(take(0), Status::time_fault)) << "before the first sample no time has passed";
+  EXPECT_FALSE(has(take(1e-3F), Status::time_fault));
+  for (int k = 0; k < 3; ++k) EXPECT_TRUE(has(take(0), Status::time_fault));
+  EXPECT_FALSE(has(take(1e-3F), Status::time_fault));
+}
+
 template <class T>
 void stall(T step_s) {
   const ObserverParameters<T> valve = closed_form_observer<T>(closed_form);

@@ -51,12 +51,8 @@ CsvTable::CsvTable(std::unique_ptr<InputBytes> input, std::vector<char> beginnin
 /// Behind those that are there; of a pipe no more than have come.
 void CsvTable::take_bytes() {
   const bool by_bits = input_->comes_bit_by_bit();
-  std::size_t room = buffer_.size() - scan_padding - filled_;
-  std::vector<char> raw;
-  if (utf16_) {  // two bytes become three at most
-    room /= 2;
-    raw.resize(room);
-  }
+  const std::size_t room = buffer_.size() - scan_padding - filled_;
+  std::vector<char> raw(utf16_ ? room : 0);
   char* const out = utf16_ ? raw.data() : buffer_.data() + filled_;
   const std::size_t got = by_bits ? input_->read_some(out, room) : input_->read(out, room);
   at_end_ = by_bits ? got == 0 : got < room;
@@ -65,6 +61,7 @@ void CsvTable::take_bytes() {
     return;
   }
   const std::string decoded = utf16_->decoded({raw.data(), got});
+  buffer_.resize(std::max(buffer_.size(), filled_ + decoded.size() + scan_padding));  // two bytes become three at most
   std::ranges::copy(decoded, buffer_.begin() + static_cast<std::ptrdiff_t>(filled_));
   filled_ += decoded.size();
 }

@@ -91,7 +91,9 @@ Text residual_text(double residual, const std::string& unit) {
   return three_digits(residual) + " " + html_text(unit);
 }
 
+/// What is known to no better than its own size is not known.
 Text uncertainty_text(double uncertainty, const std::string& unit) {
+  if (unit == "1" && uncertainty > 1) return "not identifiable";
   return unit == "1" ? Text(two_digits(100 * uncertainty) + " %") : residual_text(uncertainty, unit);
 }
 
@@ -220,7 +222,8 @@ void show_blindness(HtmlPage& page, const model::Model& model, const std::vector
       fixed(units::length(uniqueness.blind_below_m), 2),
       uniqueness.ambiguous_at_m.empty()
           ? "Elsewhere each force means one flow rate: nowhere does a higher pressure difference pull less."
-          : fmt::format("At {} positions a higher pressure difference pulls less: one force means several flow rates.",
+          : fmt::format("Positions at which a higher pressure difference pulls less, so that one force means several "
+                        "flow rates: {}.",
                         uniqueness.ambiguous_at_m.size())));
   page.figure(sensitivity_figure(model, runs));
 }

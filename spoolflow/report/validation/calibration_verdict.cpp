@@ -53,7 +53,7 @@ Verdict calibration_verdict(const model::Model& model) {
   out.limits.push_back(
       uniqueness.ambiguous_at_m.empty()
           ? Text("Nowhere does a higher pressure difference pull less: each force means one flow rate.")
-          : phrase("At {} positions a higher pressure difference pulls less, the first at {}: there one force "
+          : phrase("Positions at which a higher pressure difference pulls less: {}, the first at {}; there one force "
                    "means several flow rates.",
                    uniqueness.ambiguous_at_m.size(), fixed(units::length(uniqueness.ambiguous_at_m.front()), 2)));
   const auto& known = model.provenance.quantities;

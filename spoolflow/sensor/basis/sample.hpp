@@ -50,13 +50,13 @@ constexpr bool time_leapt(T time_step_s) {
 template <class T>
 constexpr bool ordinary(const Sample<T>& sample) {
   return is_number(sample.current_A) && is_number(sample.position_m) &&
-         within(sample.time_step_s, T(longest_regular_step_s));
+         strictly_within(sample.time_step_s, T(longest_regular_step_s));
 }
 
-/// Whether the time step is longer than the sensor is made for.
+/// Whether the time step is longer than the sensor is made for, or none.
 template <class T>
-constexpr bool is_late(T time_step_s) {
-  return !lies_below(time_step_s, T(longest_regular_step_s));
+constexpr bool is_irregular(T time_step_s) {
+  return !strictly_within(time_step_s, T(longest_regular_step_s));
 }
 
 /// Why a sample cannot be estimated: current or position is missing, or time runs backwards. `none` where it can.

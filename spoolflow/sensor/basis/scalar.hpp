@@ -47,6 +47,13 @@ constexpr bool within(T value, T highest) {
   return value >= T(0) && value < highest;
 }
 
+/// Whether 0 < value < highest, where highest > 0.
+template <class T>
+constexpr bool strictly_within(T value, T highest) {
+  if constexpr (by_bits<T>) return bits_of(value) - 1U < bits_of(highest) - 1U;
+  return value > T(0) && value < highest;
+}
+
 /// Whether value < limit, where neither is below zero; NaN lies below nothing.
 template <class T>
 constexpr bool lies_below(T value, T limit) {

@@ -30,13 +30,17 @@ struct WholeCondensedState {
 template <class T>
 SPOOLFLOW_NOINLINE constexpr void hold(const WholeCondensedTables<T>& valve, WholeCondensedState<T>& state,
                                        const WholeValveSample<T>& sample) {
-  const auto hold_side = [&](bool opens_a) {
-    CondensedState<T> direction{mirrored(opens_a, state.last)};
+  const Estimate<T> before = state.last;
+  const auto held = [&](bool opens_a) {
+    CondensedState<T> direction{mirrored(opens_a, before)};
     hold(of_side(valve, opens_a), direction, sample_of(sample, opens_a));
-    state.last = mirrored(opens_a, direction.last);
+    return mirrored(opens_a, direction.last);
   };
-  hold_side(sample.position_m < T(0));
-  if (!is_number(sample.position_m)) hold_side(true);
+  state.last = held(sample.position_m < T(0));
+  if (is_number(sample.position_m)) return;
+  const Estimate<T> other = held(true);
+  state.last.flow_lower_m3_per_s = smaller(state.last.flow_lower_m3_per_s, other.flow_lower_m3_per_s);
+  state.last.flow_upper_m3_per_s = larger(state.last.flow_upper_m3_per_s, other.flow_upper_m3_per_s);
 }
 
 /// One sample; see the same of one direction. What the idle solenoid holds is left out.

@@ -248,6 +248,7 @@ SPOOLFLOW_NOINLINE constexpr void hold(const WholeValveParameters<T>& valve, Who
   const bool leapt = sample.time_step_s > T(longest_step_s);  // not where it is no number
   if (state.open.started && within(sample.time_step_s, T(endless_step_s))) detail::widen_held(valve, state, sample);
   state.open.started = state.open.started && !leapt;
+  if (!state.open.started) open_band(state.open.last, {-most_flow(*valve.a), most_flow(*valve.b)}, true, T(0));
   state.open.last.status = unusable(sample) | when(leapt, Status::time_fault);
 }
 
@@ -260,7 +261,8 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
     hold(valve, state, measured);
     return state.open.last;
   }
-  const bool leapt = time_leapt(measured.time_step_s), late = is_late(measured.time_step_s);
+  const bool leapt = time_leapt(measured.time_step_s);
+  const bool irregular = is_irregular(measured.time_step_s) && (state.open.started || !is_zero(measured.time_step_s));
   using detail::sides;
   const bool begins = !state.open.started || leapt;
   WholeValveSample<T> held;
@@ -298,7 +300,7 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
   } else {
     seen_from(false);
   }
-  if (late) state.open.last.status |= Status::time_fault;
+  if (irregular) state.open.last.status |= Status::time_fault;
   if (unlikely(state.open.held_currents + state.idle.held_currents > 0))
     state.open.last.status |= Status::current_fault;
   return state.open.last;

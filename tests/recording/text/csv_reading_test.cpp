@@ -62,6 +62,17 @@ TEST(CsvReading, ReadsTheSameNumbersFromEveryDialect) {
   }
 }
 
+TEST(CsvReading, ReadsUtf16OfAnySizeToItsEnd) {
+  std::string text = "time_s,position_mm\n", wide = "\xFF\xFE";
+  constexpr int rows = 40000;  // more than one block
+  for (int k = 0; k < rows; ++k) text += fmt::format("{:.3f},{}\n", 1e-3 * k, k % 7);
+  for (const char c : text) wide += {c, '\0'};
+  const Recording run = read_csv(wide);
+  ASSERT_EQ(column(run, Channel::time).size(), static_cast<std::size_t>(rows));
+  EXPECT_DOUBLE_EQ(column(run, Channel::time).back(), 1e-3 * (rows - 1));
+  EXPECT_DOUBLE_EQ(column(run, Channel::position).back(), 1e-3 * ((rows - 1) % 7));
+}
+
 TEST(CsvReading, TakesAnEmptyCellForAMissingSampleAndCountsIt) {
   const TemporaryFile file("run.csv", "time_s,position_mm\n0,1\n0.001,\n0.002,3\n0.002,4\n");
   const auto reader = open_reader(file.path(), position_over_time);

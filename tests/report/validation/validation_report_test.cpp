@@ -291,13 +291,15 @@ TEST(CalibrationReport, SaysWhichQuantitiesWereMeasuredInferredAndAssumed) {
   EXPECT_THAT(silent.str(), Not(HasSubstr("measured, inferred, assumed")));
   model.provenance.quantities = {{"b", "scale of all forces", "inferred", "coenergy", "1", 0.17},
                                  {"b", "spring force", "inferred", "strokes", "N", 0.4},
+                                 {"b", "backlash", "inferred", "operation", "1", 43.0},
                                  {"b", "moving mass", "assumed", "as usual", "1"}};
   std::ostringstream out;
   write_calibration_report(out, model);
   EXPECT_EQ(unbalanced_markup(out.str()), "");
   EXPECT_THAT(out.str(), HasSubstr("their common scale within 17 %"));
-  expect_in_order(out.str(), {"What was measured, inferred, assumed", "scale of all forces", "17 %", "spring force",
-                              "inferred", "0.400 N", "moving mass", "assumed", "not known"});
+  expect_in_order(out.str(),
+                  {"What was measured, inferred, assumed", "scale of all forces", "17 %", "spring force", "inferred",
+                   "0.400 N", "backlash", "not identifiable", "moving mass", "assumed", "not known"});
 }
 
 TEST(MetricsJson, HoldsTheFiguresUnderTheirDocumentedKeys) {
