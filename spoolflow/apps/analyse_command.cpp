@@ -154,7 +154,7 @@ void add_dither_options(CLI::App& command, AnalyseArguments& arguments,
       .add_option("--ripple-limit", arguments.ripple_limit_percent,
                   "of the flow that dither may make, half of peak to peak in % of full scale")
       ->type_name("PERCENT")
-      ->check(CLI::Range(0.001, 100.0))
+      ->check(between(0.001, 100.0))
       ->capture_default_str()
       ->needs(dither);
   command.add_option("--dither-shape", arguments.dither_shape, "course of the dither's current")

@@ -94,6 +94,8 @@ calibration::CalibratedUnit calibrate_unit(const CalibrateArguments& arguments, 
       });
   output.stream() << readable_text(unit.model, task.model);
   commit_together({&output});
+  for (const std::string& doubt : unit.model.provenance.doubts)
+    say("spoolflow: doubt: {}: {}\n", unit.model.valve.name, doubt);
   for (std::size_t k = 0; !arguments.quiet && k < unit.directions.size(); ++k)
     print_unit(of_direction(type, k), unit.directions[k]);
   return unit;

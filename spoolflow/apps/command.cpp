@@ -1,5 +1,6 @@
 #include "spoolflow/apps/command.hpp"
 
+#include <cmath>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -162,6 +163,17 @@ CLI::App* add_command(CLI::App& program, const CommandText& text) {
   command->footer(footer);
   if (!text.examples.empty()) program.footer(examples_heading(program) + "  " + text.examples.front());
   return command;
+}
+
+CLI::Validator between(double lowest, double highest) {
+  const CLI::Range range(lowest, highest);
+  return CLI::Validator(
+      [range](std::string& text) {
+        double value{};
+        const bool no_number = !CLI::detail::lexical_cast(text, value) || std::isnan(value);
+        return no_number ? "Value " + text + " is no number" : range(text);
+      },
+      range.get_description());
 }
 
 void add_quiet(CLI::App& command, bool& quiet) {

@@ -6,6 +6,7 @@
 namespace CLI {
 class App;
 class Option;
+class Validator;
 }  // namespace CLI
 
 namespace spoolflow::apps {
@@ -24,6 +25,9 @@ CLI::App* add_command(CLI::App& program, const CommandText& text);
 /// Gives the program's help, and that of every command added later, its form: arguments in capitals, required options
 /// in the usage line, columns that fit.
 void shape_help_page(CLI::App& program);
+
+/// A number from `lowest` to `highest`; NaN is none.
+CLI::Validator between(double lowest, double highest);
 
 /// `-q,--quiet`: no progress.
 void add_quiet(CLI::App& command, bool& quiet);

@@ -115,7 +115,7 @@ void add_inspect_command(CLI::App& program) {
       ->type_name("MAP.toml");
   command->add_option("--stroke-mm", arguments->stroke_mm, "the valve's stroke, for positions in percent")
       ->type_name("MM")
-      ->check(CLI::Range(0.01, 50.0));
+      ->check(between(0.01, 50.0));
   std::vector<std::string> protocols;
   for (const recording::Protocol protocol : recording::all_protocols) protocols.emplace_back(recording::name(protocol));
   command

@@ -148,7 +148,7 @@ void add_monitor_command(CLI::App& program) {
   command
       ->add_option("--false-alarms-per-year", arguments->false_alarms_per_year,
                    "wanted at most over all indicators, of a valve at work day and night")
-      ->check(CLI::Range(1e-6, 1e4))
+      ->check(between(1e-6, 1e4))
       ->capture_default_str();
   add_fleet_option(*command, arguments->fleet, "file by file");
   add_units(*command, arguments->units);

@@ -173,7 +173,7 @@ void add_validate_command(CLI::App& program) {
   command
       ->add_option("--reference-lag-ms", arguments->reference_lag_ms,
                    "lag of the reference meter; else lag and dead time are found in each run")
-      ->check(CLI::Range(0.0, 10000.0));
+      ->check(between(0.0, 10000.0));
   command->add_flag("--apply-reference-lag,!--no-reference-lag", arguments->apply_reference_lag,
                     "delay and lag the estimate as the meter does before comparing (default)");
   add_quiet(*command, arguments->quiet);

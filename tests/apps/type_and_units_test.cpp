@@ -1,4 +1,5 @@
 /// A type's units by the command: series page, updated type, plan, and what else takes their models.
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -131,6 +132,37 @@ TEST_F(TypeAndUnits, AUnitsModelIsTakenByMonitorValidateAndFlashPagesAsAnyValves
   EXPECT_THAT(content("page.html"), HasSubstr("the model of the type, whose band holds all its units"));
   ASSERT_EQ(run("export parameters unit.json -o unit.bin").status, 0);
   EXPECT_THAT(run("inspect unit.bin").output, HasSubstr("NG6 serial 12"));
+}
+
+/// The same file with the pressure difference, the column of that number, in psi.
+std::string pressure_in_psi(const std::string& csv) {
+  constexpr double psi_per_bar = 14.503774;
+  std::istringstream lines(csv);
+  std::string out, line;
+  std::getline(lines, line);
+  std::size_t column = 0;
+  for (std::size_t at = 0; at < line.find("pressure_difference_bar"); ++at) column += line[at] == ',' ? 1 : 0;
+  out = line + '\n';
+  while (std::getline(lines, line)) {
+    std::size_t begin = 0;
+    for (std::size_t k = 0; k < column; ++k) begin = line.find(',', begin) + 1;
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    out += line.substr(0, begin) + fmt::format("{:.3f}", psi_per_bar * std::stod(line.substr(begin, end - begin))) +
+           line.substr(end) + '\n';
+  }
+  return out;
+}
+
+TEST_F(TypeAndUnits, AUnitsOperationInAnotherUnitOfPressureIsDoubtedAndTheModelSaysSo) {
+  record("12", {});
+  const Answer sound = run("calibrate units/12/unit.toml --type type.json -o unit.json");
+  EXPECT_EQ(sound.status, 0);
+  EXPECT_THAT(sound.message, Not(HasSubstr("doubt")));
+  const std::string stroke = content("units/12/stroke.csv");
+  write("units/12/stroke.csv", pressure_in_psi(stroke));
+  const Answer answer = run("calibrate -q units/12/unit.toml --type type.json -o unit.json");
+  EXPECT_THAT(answer.message, HasSubstr("pressure_difference looks in psi, not bar"));
+  if (answer.status == 0) EXPECT_FALSE(model::read_model(folder / "unit.json").provenance.doubts.empty());
 }
 
 TEST_F(TypeAndUnits, AReportOrAnUpdateOfFewerThanThreeUnitsIsRefusedAndNothingIsWritten) {

@@ -51,6 +51,9 @@ class Recalibration(examples.InAFolder):
         self.assertEqual(*apart)
         self.assertGreater(moved.wear_states[-1]["edge_width"], 0.05)
         self.assertIn("edge width +", " ".join(moved.provenance["adaptations"][-1]["reasons"]))
+        with self.assertRaisesRegex(spoolflow.Error, "has already moved this model"):
+            spoolflow.recalibrate(spoolflow.load_model(out), run, references)
+        self.assertEqual(len(spoolflow.recalibrate(moved.gone_back(0), run, references).wear_states), 4)
 
     def test_dictionaries_and_arrays_say_the_same_as_files(self):
         run = self.wider()

@@ -1,6 +1,9 @@
 #include "spoolflow/apps/work/recalibration.hpp"
 
+#include <map>
+#include <set>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -29,6 +32,8 @@ std::vector<recording::Recording> recordings_of(const MachineFiles& from, const 
   options.channels = from.channels;
   std::vector<recording::Recording> out;
   for (const std::filesystem::path& file : from.recordings) {
+    if (file == "-")
+      throw std::invalid_argument("recordings that move a model are named in it, and read from files, not from -");
     out.push_back(recording::read_recording(file, options));
     constexpr std::size_t least_samples = 100;
     if (out.back().size() < least_samples) {
@@ -39,6 +44,33 @@ std::vector<recording::Recording> recordings_of(const MachineFiles& from, const 
   return out;
 }
 
+/// Recordings that moved the model since it was calibrated, or since it last went back.
+std::set<std::string> used_names(const model::Model& model) {
+  std::set<std::string> out;
+  for (const model::Adaptation& each : model.provenance.adaptations) {
+    if (each.files.empty()) out.clear();
+    out.insert(each.files.begin(), each.files.end());
+  }
+  return out;
+}
+
+/// The same oil twice is no more evidence than once.
+void refuse_used_again(const model::Model& model, const std::vector<std::filesystem::path>& files) {
+  std::map<std::string, std::string> used;  // sha256 to where
+  const std::set<std::string> names = used_names(model);
+  for (const model::InputFile& input : model.provenance.inputs) {
+    if (input.protocol == model::adaptation_protocol && names.contains(input.file))
+      used.emplace(input.sha256, "has already moved this model");
+  }
+  for (const std::filesystem::path& file : files) {
+    const auto [where, is_new] = used.emplace(model::sha256_of_file(file), "is given twice");
+    if (is_new) continue;
+    throw std::invalid_argument(
+        fmt::format("{}: {}, and counts once; give recordings of other strokes, or the model as it was before",
+                    file.string(), where->second));
+  }
+}
+
 }  // namespace
 
 calibration::RecalibratedValve recalibrated(const model::Model& model, const MachineFiles& from,
@@ -46,6 +78,7 @@ calibration::RecalibratedValve recalibrated(const model::Model& model, const Mac
   calibration::require_movable(model);  // before files are read that only another model needs
   const std::vector<recording::Reference> references = recording::read_references(from.references);
   const std::vector<recording::Recording> recordings = recordings_of(from, model);
+  refuse_used_again(model, from.recordings);
   calibration::RecalibratedValve out = calibration::recalibrate(model, recordings, references, std::move(how));
   for (const recording::Recording& recording : recordings) {
     out.model.provenance.inputs.push_back({std::string(model::adaptation_protocol), recording.file.filename().string(),

@@ -5,6 +5,7 @@
 #include <deque>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "spoolflow/calibration/completeness.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
@@ -12,6 +13,9 @@
 #include "spoolflow/calibration/type/type_model.hpp"
 #include "spoolflow/calibration/type/unit_parameters.hpp"
 #include "spoolflow/calibration/unpressurised_strokes.hpp"
+#include "spoolflow/plausibility/known_valve.hpp"
+#include "spoolflow/plausibility/run_findings.hpp"
+#include "spoolflow/plausibility/run_means.hpp"
 #include "spoolflow/recording/coil_channels.hpp"
 #include "spoolflow/recording/reader.hpp"
 
@@ -68,10 +72,16 @@ std::string refusal_of(const UnitCalibration& unit, const std::string& file, con
     return std::abs(parameter.deviations) > foreign_deviations;
   });
   if (far || unit.chi_square > foreign_chi_square) {
+    const std::string bound =
+        far ? fmt::format("a unit of the type lies within {:g} standard deviations in each", foreign_deviations)
+            : fmt::format(
+                  "each lies within {:g} standard deviations, but the squares of all directions add up to "
+                  "{:.0f}, and of a unit of the type to {:g} at most",
+                  foreign_deviations, unit.chi_square, foreign_chi_square);
     return fmt::format(
-        "{}: the unit is not of the type {}: {}; a unit of the type lies within {:g} standard deviations in each; "
-        "check that recordings and type belong together, or give the type wider [tolerances] where such units are made",
-        file, type, worst_of(unit.parameters), foreign_deviations);
+        "{}: the unit is not of the type {}: {}; {}; check that recordings and type belong together, or give the type "
+        "wider [tolerances] where such units are made",
+        file, type, worst_of(unit.parameters), bound);
   }
   if (unit.misfit <= largest_misfit) return {};
   return fmt::format(
@@ -122,6 +132,43 @@ UnitCalibration unseen_unit(const model::Model& type, const std::string& type_fi
   UnitCalibration out{type, compared({prior, 0, {}, 0}, prior, tolerances_of(type)), 0, 0, prior, {}};
   out.model.type->unit = true;
   return out;
+}
+
+/// What speaks against a run of a valve of the type, in that direction where it is of one.
+void add_doubts(std::vector<std::string>& to, const model::Model& type, const recording::Recording& run,
+                const std::string& direction) {
+  const bool of_one = type.whole() && direction != through_centre;
+  const std::vector<plausibility::KnownValve> known =
+      plausibility::known_valve(of_one ? model::of_direction(type, direction) : type);
+  recording::SampleBlock block;
+  block.rows = run.size();
+  for (const recording::Channel channel : recording::all_channels)
+    block.columns[static_cast<std::size_t>(channel)] = run.column(channel);
+  plausibility::RunMeans means;
+  means.take(block);
+  for (plausibility::Finding& finding : plausibility::run_findings(known, means, run.file))
+    to.push_back(std::move(finding.text));
+}
+
+/// Directions in which the unit lies at its type's edge.
+void add_edges(std::vector<std::string>& to, const CalibratedUnit& unit) {
+  for (const UnitCalibration& direction : unit.directions) {
+    for (const UnitParameter& parameter : direction.parameters) {
+      if (parameter.marginal) to.push_back("the unit lies at the edge of its type: " + written(parameter));
+    }
+  }
+}
+
+/// The same as unit_of_type(); a refusal says what speaks against the recordings, too.
+CalibratedUnit unit_despite(const std::vector<std::string>& doubts, const model::Model& type,
+                            const std::string& type_file, const UnitRecordings& unit) {
+  try {
+    return unit_of_type(type, type_file, unit);
+  } catch (const ForeignUnit& foreign) {
+    if (doubts.empty()) throw;
+    throw ForeignUnit(fmt::format("{}; likely the recordings are wrong: {}", foreign.what(), fmt::join(doubts, "; ")),
+                      foreign.directions);
+  }
 }
 
 /// The direction of a recording of a unit, or `through_centre`, where the type is of a whole valve.
@@ -189,11 +236,15 @@ CalibratedUnit calibrate_unit(const model::Model& type, const std::string& type_
       require_unpressurised_strokes(read, type.valve.rated_flow_m3_per_s, type.valve.stroke_m);
     provenance.inputs.push_back({std::string(recording::name(entry.protocol)), entry.file.filename().string(),
                                  model::sha256_of_file(entry.file), read.size(), read.resampled});
-    runs.push_back({&read, entry.protocol, type.whole() ? direction_of(entry, read) : ""});
+    const std::string direction = type.whole() ? direction_of(entry, read) : "";
+    if (entry.protocol == recording::Protocol::operation) add_doubts(provenance.doubts, type, read, direction);
+    runs.push_back({&read, entry.protocol, direction});
   }
   constexpr double reading_share = 0.3;
   progress("the unit against its type", reading_share);
-  CalibratedUnit out = unit_of_type(type, type_file, {unit.valve.name, unit.file.string(), std::move(runs)});
+  CalibratedUnit out =
+      unit_despite(provenance.doubts, type, type_file, {unit.valve.name, unit.file.string(), std::move(runs)});
+  add_edges(provenance.doubts, out);
   out.model.provenance = std::move(provenance);
   progress("done", 1.0);
   return out;

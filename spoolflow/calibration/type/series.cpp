@@ -11,6 +11,7 @@
 #include "spoolflow/calibration/type/spread.hpp"
 #include "spoolflow/calibration/type/type_model.hpp"
 #include "spoolflow/calibration/type/unit_parameters.hpp"
+#include "spoolflow/numerics/equations/symmetric_equations.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -27,10 +28,18 @@ double number_of(std::string_view name) {
   return out;
 }
 
-/// What the recordings say beyond the type.
+/// What the recordings say beyond the type, along the axes on which they leave less than `unseen_share` of its spread
+/// open. Along the others the errors that all evidence has would count as differences between units.
 UnitLikelihood beyond(const KnownDeviations& type, const KnownDeviations& unit) {
   const Eigen::MatrixXd before = inverse_of_covariance(type.covariance), after = inverse_of_covariance(unit.covariance);
-  return {after - before, after * unit.mean - before * type.mean};
+  const numerics::CommonAxes axes = numerics::common_axes(after, before);
+  const Eigen::VectorXd seen =
+      axes.values.unaryExpr([](double gain) { return gain * unseen_share * unseen_share > 1 ? 1.0 : 0.0; });
+  const Eigen::VectorXd gained = seen.array() * (axes.values.array() - 1);
+  const Eigen::MatrixXd along = before * axes.vectors;
+  const Eigen::VectorXd weighted = after * unit.mean - before * type.mean;
+  return {along * gained.asDiagonal() * along.transpose(),
+          along * (seen.array() * (axes.vectors.transpose() * weighted).array()).matrix()};
 }
 
 struct Slope {

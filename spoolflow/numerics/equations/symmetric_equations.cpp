@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
 namespace spoolflow::numerics {
 
@@ -23,6 +24,11 @@ std::optional<Eigen::MatrixXd> inverse_of_definite(const Eigen::MatrixXd& matrix
   if (factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > flat)) return std::nullopt;
   const Eigen::MatrixXd inverse = factors.solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
   return scale.asDiagonal() * inverse * scale.asDiagonal();
+}
+
+CommonAxes common_axes(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solved(a, b);
+  return {solved.eigenvalues(), solved.eigenvectors()};
 }
 
 }  // namespace spoolflow::numerics

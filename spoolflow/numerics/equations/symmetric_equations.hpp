@@ -15,4 +15,12 @@ namespace spoolflow::numerics {
 /// The same; nothing where a direction is flat, after scaling to a diagonal of ones, to within rounding.
 [[nodiscard]] std::optional<Eigen::MatrixXd> inverse_of_definite(const Eigen::MatrixXd& matrix);
 
+/// The axes that two quadratic forms have in common: of A v = lambda B v, both symmetric and B positive definite, each
+/// lambda, ascending, and its v as a column, for which v' B v is 1.
+struct CommonAxes {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd vectors;
+};
+[[nodiscard]] CommonAxes common_axes(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
 }  // namespace spoolflow::numerics

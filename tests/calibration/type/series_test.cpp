@@ -134,6 +134,27 @@ TEST(Series, TheUpdatedTypeHasTheMiddleOfItsUnitsAndTheirSpread) {
   EXPECT_NO_THROW((void)known_of_type(updated, "updated.json"));
 }
 
+/// Units of which the recordings say next to nothing of coercivity, and that twice as far off as it is sure.
+TEST(Series, KeepsTheToleranceOfWhatTheRecordingsOfNoUnitShow) {
+  std::mt19937 random(6);
+  constexpr auto row = static_cast<Eigen::Index>(at(Variation::coercivity));
+  std::vector<SeriesUnit> units;
+  for (int serial = 1; serial <= 12; ++serial) {
+    SeriesUnit unit = measured("U" + std::to_string(serial), {}, 0.2, random);
+    const double spread = all_variations()[at(Variation::coercivity)].tolerance, open = 5 * spread;
+    const double left2 = 1 / (1 / (spread * spread) + 1 / (open * open));
+    const double read = 2 * open * (serial % 2 == 0 ? 1 : -1);
+    unit.known.mean(row) = left2 * read / (open * open);
+    unit.known.covariance(row, row) = left2;
+    unit.parameters[at(Variation::coercivity)].seen = false;
+    units.push_back(unit);
+  }
+  const model::Model updated =
+      updated_type(series_type(), compare_series(series_type(), "type.json", std::move(units)));
+  const double before = series_type().type->deviations[at(Variation::coercivity)].tolerance;
+  EXPECT_NEAR(updated.type->deviations[at(Variation::coercivity)].tolerance, before, 0.15 * before);
+}
+
 TEST(Series, OfTwoUnitsNoTypeIsUpdated) {
   std::mt19937 random(5);
   const Series two =
