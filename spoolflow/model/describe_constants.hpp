@@ -162,6 +162,13 @@ void describe_band_constants(Visitor& visitor) {
   visitor.constant(
       {.name = "most_friction_share_of_speed", .unit = "1", .meaning = "the same at most, as a share of friction"},
       sensor::most_friction_share_of_speed);
+  visitor.constant(
+      {.name = "unshown_drop_share",
+       .unit = "1",
+       .meaning = "while the spool slides, friction that falls within milliseconds by more than this share "
+                  "of it counts as uncertainty of the forces: the position shows late that the spool "
+                  "stops or turns"},
+      sensor::unshown_drop_share);
   visitor.constant({.name = "displaced_friction_factor",
                     .unit = "1",
                     .meaning = "half the width that friction takes in the band, over the share of it by which its "
@@ -243,6 +250,10 @@ void describe_oil_constants(Visitor& visitor) {
                    sensor::oil_leap_K);
   visitor.constant({.name = "longest_oil_fault_s", .unit = "s", .meaning = "until it has lasted so long"},
                    sensor::longest_oil_fault_s);
+  visitor.constant({.name = "first_oil_fault_s",
+                    .unit = "s",
+                    .meaning = "that fault has lasted so long where it is there before a plausible reading"},
+                   sensor::first_oil_fault_s);
 }
 
 /// Calls visitor.constant(Constant, value) of each.

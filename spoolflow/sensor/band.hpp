@@ -183,7 +183,8 @@ SPOOLFLOW_INLINE constexpr PressureHalfWidths<T> pressure_half_widths(const Band
   open_N2 += squared(band.coverage_factor * environment_N);
   const T open_Pa = pressure_deviation_Pa(balance.edge, sqrt(open_N2));
   PressureHalfWidths<T> widths{open_Pa, open_Pa, T(0)};
-  const bool bounded = !balance.sliding && !balance.slips && !balance.closed;
+  // The mean of friction over a period of dither has bounds in slips, too.
+  const bool bounded = !balance.sliding && (!balance.slips || (balance.dithered && balance.settled)) && !balance.closed;
   if (bounded) {
     open_N2 += squared(T(constrained_correction_factor) * slope * pressure.constrained_correction_Pa);
     const T bounds_N = band.force_share * balance.noise_N + bounds_deviation_N(band, rest_s);

@@ -55,8 +55,8 @@ struct ForceBalance {
   bool closed;  ///< the spool covers the metering edge
 };
 
-/// One standard deviation of all forces together [N], from that of each. `moving_N` is that of what inertia, or the
-/// swing under dither, may be wrong by.
+/// One standard deviation of all forces together [N], from that of each. `moving_N` is that of what motion that the
+/// position shows late, or the swing under dither, may be wrong by.
 template <class T>
 SPOOLFLOW_INLINE constexpr T force_noise_N(const BandParameters<T>& band, const ActuatorEstimate<T>& actuator,
                                            const FrictionBounds<T>& bounds, T moving_N) {
@@ -77,6 +77,18 @@ constexpr T slips_excess_N(const ObserverParameters<T>& valve, T half_swing_N, T
   const T elastic_m = T(2) * half_swing_N / larger(valve.friction.contact_stiffness_N_per_m, T(1));
   return slip_excess_N(valve.moving_mass_kg, half_swing_N, magnitude(velocity_m_per_s) * period_s - elastic_m,
                        period_s);
+}
+
+/// While the spool slides, friction that was there some milliseconds ago and now is less by more than this share of it
+/// says that the spool stops or turns, before the position shows it.
+inline constexpr double unshown_drop_share = 0.1;
+
+/// What of friction has gone while the position still shows the spool slide [N], >= 0: the forces are no surer than
+/// that. `earlier_N` is the residual force some milliseconds ago; what stuck then is no friction of sliding.
+template <class T>
+SPOOLFLOW_INLINE constexpr T unshown_drop_N(T sliding_N, T direction, T earlier_N, T now_N) {
+  return at_least_zero(smaller(direction * earlier_N, sliding_N) - direction * now_N -
+                       T(unshown_drop_share) * sliding_N);
 }
 
 namespace detail {
@@ -132,10 +144,14 @@ SPOOLFLOW_INLINE constexpr ForceBalance<T> balance_forces(const ObserverParamete
   out.friction_N = out.sliding ? out.direction * out.bounds.sliding_N
                                : limited(out.residual_force_N, out.resting.lower_N, out.resting.upper_N);
   // Paper (1): the mass takes a part of the force; position shows it late, so that it is no surer than its size.
-  const T inertia_N = travels && !out.dithered ? valve.moving_mass_kg * position.acceleration_m_per_s2 : T(0);
+  T inertia_N{}, drop_N{};
+  if (travels && !out.dithered) {
+    inertia_N = valve.moving_mass_kg * position.acceleration_m_per_s2;
+    drop_N = unshown_drop_N(out.bounds.sliding_N, out.direction, memory.contacts.earlier_N, out.residual_force_N);
+  }
   out.residual_force_N -= inertia_N;
   const T missed_N = T(missed_middle) * squared(dither.sample_per_period) * out.half_swing_N;
-  out.noise_N = force_noise_N(valve.band, out.actuator, out.bounds, out.dithered ? missed_N : inertia_N);
+  out.noise_N = force_noise_N(valve.band, out.actuator, out.bounds, out.dithered ? missed_N : inertia_N + drop_N);
   return out;
 }
 

@@ -51,6 +51,26 @@ TEST(ForceBalance, LeavesTheFrictionThatIsThereAtTheRightPressureDifference) {
   }
 }
 
+/// The spool slid with its friction, 8 ms long; now another force is left while the position still shows it slide.
+double noise_after_N(double earlier_N, double now_N, double direction) {
+  Balance valve;
+  const PositionPoint<double> point = moving(direction > 0 ? Motion::opening : Motion::closing, direction);
+  for (int k = 0; k < 8; ++k) (void)valve.of(point, direction * earlier_N);
+  return valve.of(point, direction * now_N).noise_N;
+}
+
+TEST(ForceBalance, IsNoSurerThanWhatFrictionHasLostWhileThePositionStillShowsASlide) {
+  const double sliding_N = sliding_friction_N(loaded_Pa);
+  for (const double direction : {1.0, -1.0}) {
+    const double steady_N = noise_after_N(sliding_N, sliding_N, direction);
+    EXPECT_NEAR(noise_after_N(sliding_N, 0.95 * sliding_N, direction), steady_N, 1e-9);
+    EXPECT_NEAR(noise_after_N(2 * sliding_N, sliding_N, direction), steady_N, 1e-9) << "it stuck before";
+    EXPECT_NEAR(noise_after_N(sliding_N, 1.5 * sliding_N, direction), steady_N, 1e-9) << "pressed on";
+    EXPECT_GT(noise_after_N(sliding_N, 0, direction), 0.85 * sliding_N);
+    EXPECT_GT(noise_after_N(sliding_N, -sliding_N, direction), 1.85 * sliding_N);
+  }
+}
+
 TEST(ForceBalance, HasTheInnovationOfFlowForceAndFrictionWhereTheSpoolSlidesAtAWrongPressureDifference) {
   constexpr double friction_per_pressure = 2e-7 * (1 - 0.1 * 0.25);
   for (const double direction : {1.0, -1.0}) {
