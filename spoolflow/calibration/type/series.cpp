@@ -34,7 +34,7 @@ UnitLikelihood beyond(const KnownDeviations& type, const KnownDeviations& unit) 
   const Eigen::MatrixXd before = inverse_of_covariance(type.covariance), after = inverse_of_covariance(unit.covariance);
   const numerics::CommonAxes axes = numerics::common_axes(after, before);
   const Eigen::VectorXd seen =
-      axes.values.unaryExpr([](double gain) { return gain * unseen_share * unseen_share > 1 ? 1.0 : 0.0; });
+      axes.values.unaryExpr([](double ratio) { return ratio * unseen_share * unseen_share > 1 ? 1.0 : 0.0; });
   const Eigen::VectorXd gained = seen.array() * (axes.values.array() - 1);
   const Eigen::MatrixXd along = before * axes.vectors;
   const Eigen::VectorXd weighted = after * unit.mean - before * type.mean;
