@@ -30,17 +30,14 @@ struct WholeCondensedState {
 template <class T>
 SPOOLFLOW_NOINLINE constexpr void hold(const WholeCondensedTables<T>& valve, WholeCondensedState<T>& state,
                                        const WholeValveSample<T>& sample) {
-  const Estimate<T> before = state.last;
-  const auto held = [&](bool opens_a) {
-    CondensedState<T> direction{mirrored(opens_a, before)};
-    hold(of_side(valve, opens_a), direction, sample_of(sample, opens_a));
-    return mirrored(opens_a, direction.last);
+  const T unobserved_s = detail::unobserved_s(state.last, sample.time_step_s);
+  const auto hold_side = [&](bool opens_a) {
+    CondensedState<T> direction{mirrored(opens_a, state.last)};
+    detail::hold(of_side(valve, opens_a), direction, sample_of(sample, opens_a), unobserved_s);
+    state.last = mirrored(opens_a, direction.last);
   };
-  state.last = held(sample.position_m < T(0));
-  if (is_number(sample.position_m)) return;
-  const Estimate<T> other = held(true);
-  state.last.flow_lower_m3_per_s = smaller(state.last.flow_lower_m3_per_s, other.flow_lower_m3_per_s);
-  state.last.flow_upper_m3_per_s = larger(state.last.flow_upper_m3_per_s, other.flow_upper_m3_per_s);
+  hold_side(sample.position_m < T(0));
+  if (!is_number(sample.position_m)) hold_side(true);
 }
 
 /// One sample; see the same of one direction. What the idle solenoid holds is left out.
