@@ -76,7 +76,7 @@ constexpr T largest_flow(const CondensedTables<T>& valve, T position_m) {
 /// For how long nobody looked [s]: before the first answer, which alone has no band, long enough for any position.
 template <class T>
 constexpr T unobserved_s(const Estimate<T>& held, T time_step_s) {
-  return is_zero(held.flow_upper_m3_per_s) ? T(unobserved_stroke_s) : time_step_s;
+  return held.flow_lower_m3_per_s < held.flow_upper_m3_per_s ? time_step_s : T(unobserved_stroke_s);
 }
 
 /// See sensor::hold.
