@@ -73,32 +73,22 @@ constexpr T largest_flow(const CondensedTables<T>& valve, T position_m) {
   return flow + place.cells * flow_rise + T(Layout::root_cells) * (flow_more + place.cells * flow_more_rise);
 }
 
-/// For how long nobody looked [s]: before the first answer, which alone has no band, long enough for any position.
-template <class T>
-constexpr T unobserved_s(const Estimate<T>& held, T time_step_s) {
-  return held.flow_lower_m3_per_s < held.flow_upper_m3_per_s ? time_step_s : T(unobserved_stroke_s);
-}
+}  // namespace detail
 
-/// See sensor::hold.
+/// A sample that cannot be used: the last flow is held, and its band opens to all that may flow, at the position that
+/// is measured or, without one, at any; at once before the first answer, which alone has no band.
 template <class T>
 SPOOLFLOW_NOINLINE constexpr void hold(const CondensedTables<T>& valve, CondensedState<T>& state,
-                                       const Sample<T>& sample, T unobserved_s) {
+                                       const Sample<T>& sample) {
   Estimate<T>& out = state.last;
   const T end_m = T(CondensedLayout::position_cells) / valve.cells_per_m;
   const T position_m = is_number(sample.position_m) ? limited(sample.position_m, T(0), end_m) : end_m;
   const T most_m3_per_s = detail::largest_flow(valve, position_m) + valve.flow_residual_m3_per_s;
+  const bool answered = out.flow_lower_m3_per_s < out.flow_upper_m3_per_s;
+  const T unobserved_s = answered ? sample.time_step_s : T(unobserved_stroke_s);
   if (within(unobserved_s, T(endless_step_s)))
     open_band(out, {-valve.flow_residual_m3_per_s, most_m3_per_s}, false, unobserved_s);
-  out.status = why_held(sample);
-}
-
-}  // namespace detail
-
-/// A sample that cannot be used: the last flow is held, and its band opens to all that may flow, at the position that
-/// is measured or, without one, at any; at once before the first answer.
-template <class T>
-constexpr void hold(const CondensedTables<T>& valve, CondensedState<T>& state, const Sample<T>& sample) {
-  detail::hold(valve, state, sample, detail::unobserved_s(state.last, sample.time_step_s));
+  out.status = detail::why_held(sample);
 }
 
 /// One sample through the chain: magnetic force, spring, flow force, flow rate. Friction, hysteresis and inertia are

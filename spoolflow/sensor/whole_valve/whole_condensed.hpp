@@ -30,10 +30,9 @@ struct WholeCondensedState {
 template <class T>
 SPOOLFLOW_NOINLINE constexpr void hold(const WholeCondensedTables<T>& valve, WholeCondensedState<T>& state,
                                        const WholeValveSample<T>& sample) {
-  const T unobserved_s = detail::unobserved_s(state.last, sample.time_step_s);
   const auto hold_side = [&](bool opens_a) {
     CondensedState<T> direction{mirrored(opens_a, state.last)};
-    detail::hold(of_side(valve, opens_a), direction, sample_of(sample, opens_a), unobserved_s);
+    hold(of_side(valve, opens_a), direction, sample_of(sample, opens_a));
     state.last = mirrored(opens_a, direction.last);
   };
   hold_side(sample.position_m < T(0));
