@@ -76,7 +76,7 @@ constexpr T largest_flow(const CondensedTables<T>& valve, T position_m) {
 }  // namespace detail
 
 /// A sample that cannot be used: the last flow is held, and its band opens to all that may flow, at the position that
-/// is measured or, without one, at any; at once before the first answer, which alone has no band.
+/// is measured or, without one, at any.
 template <class T>
 SPOOLFLOW_NOINLINE constexpr void hold(const CondensedTables<T>& valve, CondensedState<T>& state,
                                        const Sample<T>& sample) {
@@ -84,10 +84,9 @@ SPOOLFLOW_NOINLINE constexpr void hold(const CondensedTables<T>& valve, Condense
   const T end_m = T(CondensedLayout::position_cells) / valve.cells_per_m;
   const T position_m = is_number(sample.position_m) ? limited(sample.position_m, T(0), end_m) : end_m;
   const T most_m3_per_s = detail::largest_flow(valve, position_m) + valve.flow_residual_m3_per_s;
-  const bool answered = out.flow_lower_m3_per_s < out.flow_upper_m3_per_s;
-  const T unobserved_s = answered ? sample.time_step_s : T(unobserved_stroke_s);
-  if (within(unobserved_s, T(endless_step_s)))
-    open_band(out, {-valve.flow_residual_m3_per_s, most_m3_per_s}, false, unobserved_s);
+  if (within(sample.time_step_s, T(endless_step_s))) {
+    open_band(out, {-valve.flow_residual_m3_per_s, most_m3_per_s}, false, sample.time_step_s);
+  }
   out.status = detail::why_held(sample);
 }
 
