@@ -168,6 +168,10 @@ CalibratedUnit unit_despite(const std::vector<std::string>& doubts, const model:
     if (doubts.empty()) throw;
     throw ForeignUnit(fmt::format("{}; likely the recordings are wrong: {}", foreign.what(), fmt::join(doubts, "; ")),
                       foreign.directions);
+  } catch (const CalibrationError& error) {
+    if (doubts.empty()) throw;
+    throw CalibrationError(
+        fmt::format("{}; likely the recordings are wrong: {}", error.what(), fmt::join(doubts, "; ")));
   }
 }
 
