@@ -109,17 +109,17 @@ TEST_F(SendersTest, TwoSendersOfOneIdAreNoMixtureAndAreReportedOnce) {
   EXPECT_THAT(trouble, HasSubstr("two senders use this id: samples of 127.0.0.1:"));
   EXPECT_THAT(trouble, HasSubstr("(session 8) are taken, those of 127.0.0.1:"));
   EXPECT_THAT(trouble, HasSubstr("(session 7) are refused"));
-  const auto told = [&] {
+  const auto reported = [&] {
     const std::vector<Event> all = engine.events();
     return std::count_if(all.begin(), all.end(), [&](const Event& one) { return one.text == trouble; });
   };
-  ASSERT_TRUE(comes_true([&] { return told() == 1; }));
+  ASSERT_TRUE(comes_true([&] { return reported() == 1; }));
   for (; sequence < 600; sequence += 20) {
     send_datagrams(engine, sequence, 20, 7);
     send_datagrams(engine, 1000 + sequence, 20, 8);
     std::this_thread::sleep_for(std::chrono::milliseconds(60));
   }
-  EXPECT_EQ(told(), 1);
+  EXPECT_EQ(reported(), 1);
 }
 
 TEST_F(SendersTest, ReadsAPipeAgainAndAgain) {

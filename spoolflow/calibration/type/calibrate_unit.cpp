@@ -140,12 +140,8 @@ void add_doubts(std::vector<std::string>& to, const model::Model& type, const re
   const bool of_one = type.whole() && direction != through_centre;
   const std::vector<plausibility::KnownValve> known =
       plausibility::known_valve(of_one ? model::of_direction(type, direction) : type);
-  recording::SampleBlock block;
-  block.rows = run.size();
-  for (const recording::Channel channel : recording::all_channels)
-    block.columns[static_cast<std::size_t>(channel)] = run.column(channel);
   plausibility::RunMeans means;
-  means.take(block);
+  means.take({run.columns, run.size()});
   for (plausibility::Finding& finding : plausibility::run_findings(known, means, run.file))
     to.push_back(std::move(finding.text));
 }
