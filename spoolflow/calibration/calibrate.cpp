@@ -142,6 +142,11 @@ std::vector<std::string> flow_bench_contradictions(const ReadCampaign& recording
   return out;
 }
 
+InOperation in_operation(const model::Valve& valve, const EquivalentBenches* flow_bench) {
+  return {valve.rated_flow_m3_per_s, flow_bench != nullptr,
+          flow_bench != nullptr && !flow_bench->axial_force_was_measured};
+}
+
 }  // namespace
 
 model::Model calibrate_valve(CampaignRecordings recordings, const model::Valve& valve,
@@ -152,9 +157,9 @@ model::Model calibrate_valve(CampaignRecordings recordings, const model::Valve& 
   constexpr double bench_share = 0.3;
   std::vector<OperatingRun> runs;
   add_runs(runs, recordings.operation, RunOf::one, nullptr);
-  calibrate_in_operation(
-      *fitted.observer, runs, {valve.rated_flow_m3_per_s, recordings.flow_bench != nullptr},
-      [&](double share) { progress("full sensor in operation", bench_share + (1 - bench_share) * share); });
+  calibrate_in_operation(*fitted.observer, runs, in_operation(valve, recordings.flow_bench), [&](double share) {
+    progress("full sensor in operation", bench_share + (1 - bench_share) * share);
+  });
   model::Model out;
   out.valve = valve;
   out.condensed = std::move(fitted.condensed);
@@ -178,9 +183,9 @@ model::Model calibrate_whole_valve(CampaignRecordings p_to_b, CampaignRecordings
   add_runs(runs, p_to_b.operation, RunOf::one, other);
   add_runs(runs, p_to_a.operation, RunOf::other, other);
   add_runs(runs, through_centre, RunOf::both, other);
-  calibrate_in_operation(
-      *b.observer, runs, {valve.rated_flow_m3_per_s, p_to_b.flow_bench != nullptr},
-      [&](double share) { progress("full sensor in operation", 2 * bench_share + (1 - 2 * bench_share) * share); });
+  calibrate_in_operation(*b.observer, runs, in_operation(valve, p_to_b.flow_bench), [&](double share) {
+    progress("full sensor in operation", 2 * bench_share + (1 - 2 * bench_share) * share);
+  });
   take_over_operation(*b.observer, *a.observer);
   model::Model out;
   out.valve = valve;

@@ -279,7 +279,7 @@ void calibrate_in_operation(model::Observer& observer, const std::vector<Operati
   const std::vector<std::string> of_bench = std::move(observer.defaults);
   const std::vector<OperatingRun> used = with_reference(runs);
   if (!used.empty()) {
-    OperationFit fit = fit_operation(observer.parameters, used, valve.rated_flow_m3_per_s, progress);
+    OperationFit fit = fit_operation(observer.parameters, used, valve, progress);
     if (valve.on_flow_bench && fit.force_error_ratio < least_inferred_force_error_ratio) {
       fit.force_error_ratio = least_inferred_force_error_ratio;
       scale_band(observer.parameters, fit.force_error_ratio);

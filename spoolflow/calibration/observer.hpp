@@ -5,6 +5,7 @@
 
 #include "spoolflow/calibration/edges/path_of_edges.hpp"
 #include "spoolflow/calibration/flow_bench/equivalent_benches.hpp"
+#include "spoolflow/calibration/operation/operation.hpp"
 #include "spoolflow/calibration/operation/replay.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/recording/recording.hpp"
@@ -29,11 +30,6 @@ struct ObserverCalibration {
 /// model's. Throws CalibrationError.
 [[nodiscard]] ObserverCalibration calibrate_on_bench(const ObserverRecordings& recordings, const model::Valve& valve,
                                                      double closed_below_m);
-
-struct InOperation {
-  double rated_flow_m3_per_s;
-  bool on_flow_bench;  ///< some of its forces are inferred
-};
 
 /// What only operation shows, from runs of which those without a reference flow are left out; what no run shows is
 /// assumed, and said so in `defaults`. `progress` receives the share done. Throws CalibrationError.

@@ -12,6 +12,8 @@ namespace spoolflow::calibration {
 struct FluxEvidence {
   const SolenoidSamples* samples;
   std::vector<double> magnetising_current_A;
+  double longest_window_s =
+      0;  ///< > 0: flux changes are taken over longer windows, from quiet current to quiet current
 };
 
 /// While the armature is held, the load cell gives the magnetising current at any speed: the averaged force map

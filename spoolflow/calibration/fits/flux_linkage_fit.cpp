@@ -20,7 +20,12 @@ constexpr int flux_columns = sensor::flux_map_positions;
 constexpr int zero_row = sensor::flux_map_currents_below_zero;
 constexpr int nodes = (flux_rows - zero_row - 1) * flux_columns;
 constexpr std::size_t window_samples = 13;  // long against the noise, short against a sine's period
-constexpr double knot_distance_s = 15;      // a coil warms in minutes
+/// Longer windows end where current or position has changed by this share of a cell of the map, ...
+constexpr double longer_window_cells = 0.5;
+/// ... and the current by less than so many deviations of its noise from sample to sample: within a step that it
+/// takes between two samples its value at their end is not known.
+constexpr double quiet_deviations = 4;
+constexpr double knot_distance_s = 15;  // a coil warms in minutes
 
 using FluxMap = sensor::Map<double, flux_rows, flux_columns>;
 
@@ -72,6 +77,54 @@ struct FluxChanges {
   double resistance_step_Ohm = 0;  ///< by which the resistance is let change from knot to knot
 };
 
+struct Window {
+  std::size_t begin, end;
+};
+
+/// Successive windows of a recording.
+std::vector<Window> windows_of(const FluxEvidence& evidence, const FluxMap& map) {
+  const SolenoidSamples& s = *evidence.samples;
+  std::vector<double> current_A;
+  for (const auto& sample : s.samples) current_A.push_back(sample.current_A);
+  const double quiet_A = std::fmax(quiet_deviations * noise_of(current_A),
+                                   1e-3 * std::ranges::max(current_A, {}, [](double each) { return std::abs(each); }));
+  const double change_A = longer_window_cells * map.row_axis.spacing;
+  const double change_m = longer_window_cells * map.column_axis.spacing;
+  const auto quiet = [&](std::size_t k) {
+    return k + 1 >= s.size() ||
+           (std::abs(current_A[k] - current_A[k - 1]) < quiet_A && std::abs(current_A[k + 1] - current_A[k]) < quiet_A);
+  };
+  std::vector<Window> out;
+  for (std::size_t begin = 0; begin + window_samples < s.size(); begin = out.back().end) {
+    std::size_t end = begin + window_samples;
+    const auto goes_on = [&] {
+      const double lasts_s = s.time_s[end] - s.time_s[begin];
+      if (!quiet(end)) return lasts_s < 2 * evidence.longest_window_s;
+      return lasts_s < evidence.longest_window_s && std::abs(current_A[end] - current_A[begin]) < change_A &&
+             std::abs(s.samples[end].position_m - s.samples[begin].position_m) < change_m;
+    };
+    while (end + 1 < s.size() && s.restarts[end] == 0 && goes_on()) ++end;
+    out.push_back({begin, end});
+  }
+  return out;
+}
+
+/// What the coil's resistance takes of the voltage in one sample, as shares of its values at the knots before and
+/// after.
+void add_resistance(Shares& shares, int first_knot, double knot, double current_A_s) {
+  const int lower = static_cast<int>(knot);
+  const double of_upper = knot - lower;
+  for (const auto& [unknown, share] :
+       {std::pair{first_knot + lower, 1 - of_upper}, {first_knot + lower + 1, of_upper}}) {
+    const auto known = std::ranges::find(shares, unknown, &std::pair<int, double>::first);
+    if (known == shares.end()) {
+      shares.emplace_back(unknown, share * current_A_s);
+    } else {
+      known->second += share * current_A_s;
+    }
+  }
+}
+
 void add_changes(FluxChanges& changes, const FluxEvidence& evidence) {
   const SolenoidSamples& s = *evidence.samples;
   std::vector<double> voltage_V;
@@ -88,8 +141,7 @@ void add_changes(FluxChanges& changes, const FluxEvidence& evidence) {
       std::max(changes.voltage_noise_V_root_s, voltage_noise_V * std::sqrt(steps_s / static_cast<double>(s.size())));
   changes.current_noise_A = std::fmax(changes.current_noise_A, noise_of(evidence.magnetising_current_A));
   const int first_knot = changes.unknowns;
-  for (std::size_t begin = 0; begin + window_samples < s.size(); begin += window_samples) {
-    const std::size_t end = begin + window_samples;
+  for (const auto& [begin, end] : windows_of(evidence, changes.map)) {
     if (std::isnan(evidence.magnetising_current_A[begin]) || std::isnan(evidence.magnetising_current_A[end])) continue;
     FluxChange change;
     bool whole = true;
@@ -99,10 +151,8 @@ void add_changes(FluxChanges& changes, const FluxEvidence& evidence) {
       whole = s.restarts[k] == 0 && !std::isnan(sample.voltage_V) && step_s > 0;
       change.voltage_integral_Wb += sample.voltage_V * step_s;
       change.noise_Wb2 += voltage_noise_V * voltage_noise_V * step_s * step_s;
-      const double knot = (s.time_s[k] - s.time_s.front()) / knot_distance_s;
-      const int lower = static_cast<int>(knot);
-      change.shares.emplace_back(first_knot + lower, (1 - (knot - lower)) * sample.current_A * step_s);
-      change.shares.emplace_back(first_knot + lower + 1, (knot - lower) * sample.current_A * step_s);
+      add_resistance(change.shares, first_knot, (s.time_s[k] - s.time_s.front()) / knot_distance_s,
+                     sample.current_A * step_s);
     }
     if (!whole) continue;
     add_flux(change.shares, changes.map, evidence.magnetising_current_A[end], s.samples[end].position_m, 1);

@@ -16,6 +16,9 @@ namespace {
 constexpr CoilSizes usual_coil{0.012, 0.005, 0.004, 0.008};
 constexpr CoilSizes usual_coil_deviation{0.01, 0.01, 0.004, 0.01};
 
+/// A slow stroke changes the flux by less than its noise within some milliseconds. A coil warms in minutes.
+constexpr double longest_flux_window_s = 1;
+
 double full_flux_Wb(const sensor::FluxLinkage<double>& flux_linkage) {
   return flux_linkage.map.node(sensor::flux_map_currents - 1 - sensor::flux_map_currents_below_zero,
                                sensor::flux_map_positions - 1);
@@ -34,6 +37,14 @@ sensor::Coil<double> coil_of(const CoilSizes& sizes, const FluxLinkageFit& flux_
   coil.eddy_currents.excess_A_per_rootV = sizes[3];
   coil.eddy_currents.smallest_rate_V = smallest_rate_V(flux_linkage, largest_A);
   return coil;
+}
+
+/// The coil current at each sample's instant, between its means over the steps before and after.
+std::vector<double> current_at_instants(const SolenoidSamples& coil) {
+  std::vector<double> out;
+  for (std::size_t k = 0; k < coil.size(); ++k)
+    out.push_back(0.5 * (coil.samples[k].current_A + coil.samples[std::min(k + 1, coil.size() - 1)].current_A));
+  return out;
 }
 
 /// The magnetising current of each sample.
@@ -81,7 +92,8 @@ std::vector<RunForces> forces_of(const std::vector<TrackedRun>& runs, const Coil
 FluxLinkageFit flux_linkage_of(const std::vector<TrackedRun>& runs, const std::vector<std::vector<double>>& current_A,
                                const sensor::MagneticForce<double>& axes) {
   std::vector<FluxEvidence> evidence;
-  for (std::size_t r = 0; r < runs.size(); ++r) evidence.push_back({&runs[r].coil, current_A[r]});
+  for (std::size_t r = 0; r < runs.size(); ++r)
+    evidence.push_back({&runs[r].coil, current_A[r], longest_flux_window_s});
   FluxLinkageFit out = fit_flux_linkage(evidence, axes);
   if (out.measured) return out;
   throw CalibrationError(
@@ -209,13 +221,13 @@ void fit_with_coil(FlowBenchFit& out, ForcePriors priors, const std::vector<Trac
   priors.coil_deviation = usual_coil_deviation;
   const sensor::MagneticForce<double> axes = empty_force_map(largest_A, out.layout.stroke_m);
   std::vector<std::vector<double>> current_A;
-  for (const TrackedRun& run : runs) {
-    current_A.emplace_back();
-    for (const auto& sample : run.coil.samples) current_A.back().push_back(sample.current_A);
-  }
+  for (const TrackedRun& run : runs) current_A.push_back(current_at_instants(run.coil));
   constexpr int flux_rounds = 3, coil_rounds = 3;
   for (int flux_round = 0; flux_round < flux_rounds; ++flux_round) {
-    out.flux_linkage = flux_linkage_of(runs, current_A, axes);
+    FluxLinkageFit flux_linkage = flux_linkage_of(runs, current_A, axes);
+    // What was taken off the current after the round before has to explain the voltage better than the current itself.
+    if (flux_round > 0 && flux_linkage.residual.rms() > out.flux_linkage.residual.rms()) break;
+    out.flux_linkage = std::move(flux_linkage);
     const sensor::MagneticForce<double> coenergy_force = force_of_coenergy(out.flux_linkage.flux_linkage);
     for (int round = 0; round < coil_rounds; ++round, ++out.rounds) {
       const std::vector<RunForces> forces = forces_of(runs, out.coil_sizes, out.flux_linkage, largest_A);

@@ -13,7 +13,7 @@ using Row = std::vector<std::pair<int, double>>;
 
 constexpr double usual_residual_N = 0.3;
 /// Neighbouring samples share what the model omits: so many of them count as one.
-constexpr double samples_alike = 10;
+constexpr double samples_alike = 30;
 
 struct Equation {
   Row row;
@@ -201,6 +201,24 @@ void add_measured(Equations& to, const ForceLayout& l, const std::vector<Measure
   }
 }
 
+/// Over all samples together the magnetic force keeps the coenergy's size: with all forces in proportion the residuals
+/// shrink, too, so that they cannot show it.
+void add_scale(Equations& to, const ForceLayout& l, const std::vector<Equation>& all, double deviation) {
+  std::vector<double> share(static_cast<std::size_t>(l.spring_at(0)), 0.0);
+  double sum_N = 0;
+  for (const Equation& each : all) {
+    for (const auto& [k, of_k] : each.row) {
+      if (k >= l.spring_at(0)) continue;
+      share[static_cast<std::size_t>(k)] += each.samples * of_k;
+      sum_N += each.samples * of_k;
+    }
+  }
+  if (!(sum_N > 0)) return;
+  Row row;
+  for (int k = 0; k < l.spring_at(0); ++k) row.emplace_back(k, share[static_cast<std::size_t>(k)] / sum_N);
+  to.add(row, 0, deviation);
+}
+
 double deviation_of(const Equation& equation, const Eigen::VectorXd& unknowns) {
   double out = -equation.right;
   for (const auto& [k, share] : equation.row) out += share * unknowns(k);
@@ -242,6 +260,7 @@ ForceSolution solve_forces(const ForceLayout& layout, const ForcePriors& priors,
     add_priors(equations, layout, priors);
     const double deviation_N = out.residual_N * std::sqrt(samples_alike);
     add_measured(equations, layout, priors.measured, deviation_N);
+    if (priors.measured.empty()) add_scale(equations, layout, all, priors.map_scale);
     for (const Equation& each : all) {
       const double away = out.unknowns.size() == 0 ? 0 : deviation_of(each, out.unknowns) / (3 * out.residual_N);
       equations.add(each.row, each.right, deviation_N * std::sqrt((1 + away * away) / each.samples));

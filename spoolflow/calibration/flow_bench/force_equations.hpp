@@ -65,6 +65,7 @@ struct MeasuredForce {
 /// What is known beforehand.
 struct ForcePriors {
   double map_share = 0.08;  ///< by which the coenergy's force may be wrong at a knot
+  double map_scale = 0.03;  ///< by which it may be wrong on the average, where no force rig says so
   double map_bend = 0.01;   ///< by which its share may bend from knot to knot
   CoilSizes coil{}, coil_deviation{};
   std::vector<MeasuredForce> measured{};

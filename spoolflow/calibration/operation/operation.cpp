@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include "spoolflow/calibration/operation/force_error_ratio.hpp"
 #include "spoolflow/calibration/operation/identifiable_parameters.hpp"
@@ -55,7 +56,8 @@ std::vector<std::string> not_identifiable(const std::vector<OperationParameter>&
 }  // namespace
 
 OperationFit fit_operation(sensor::ObserverParameters<double>& parameters, const std::vector<OperatingRun>& recorded,
-                           double full_scale_m3_per_s, const std::function<void(double)>& progress) {
+                           const InOperation& valve, const std::function<void(double)>& progress) {
+  const double full_scale_m3_per_s = valve.rated_flow_m3_per_s;
   OperationFit out{};
   const std::vector<OperatingRun> runs = with_meters(parameters, recorded);
   for (const OperatingRun& run : runs) out.meters.push_back(run.meter);
@@ -73,14 +75,19 @@ OperationFit fit_operation(sensor::ObserverParameters<double>& parameters, const
   std::array<OperationTrial, 2> trials{OperationTrial(parameters, runs), OperationTrial(parameters, runs)};
   const std::vector<OperationParameter> all = identifiable_parameters(trials[0], full_scale_m3_per_s);
   out.not_identifiable = not_identifiable(all);
-  std::vector<double> prior;
-  for (const OperationParameter& parameter : all) prior.push_back(parameter.in(trials[0]));
-  // An operating recording shows one supply and one oil temperature: a parameter moves only where that pays.
-  constexpr double pull = 0.1;
+  // An operating recording shows one supply and one oil temperature: a parameter moves only where that pays. One that
+  // is known beforehand moves little.
+  constexpr double pull = 0.1, pull_of_known = 3;
+  std::vector<double> prior, pulls;
+  for (const OperationParameter& parameter : all) {
+    const bool known = valve.friction_is_known && std::string_view(parameter.name).starts_with("operation_friction");
+    prior.push_back(parameter.in(trials[0]));
+    pulls.push_back(known ? pull_of_known : pull);
+  }
   const auto cost = [&](OperationTrial& trial) {
-    double distance2 = 0;
-    for (std::size_t k = 0; k < all.size(); ++k) distance2 += std::pow(std::log(all[k].in(trial) / prior[k]), 2);
-    return operation_score(trial, full_scale_m3_per_s) * (1 + pull * distance2);
+    double share = 0;
+    for (std::size_t k = 0; k < all.size(); ++k) share += pulls[k] * std::pow(std::log(all[k].in(trial) / prior[k]), 2);
+    return operation_score(trial, full_scale_m3_per_s) * (1 + share);
   };
 
   out.score_before = operation_score(trials[0], full_scale_m3_per_s);

@@ -16,6 +16,13 @@
 
 namespace spoolflow::calibration {
 
+/// The valve of the operating recordings.
+struct InOperation {
+  double rated_flow_m3_per_s;
+  bool on_flow_bench = false;      ///< some of its forces are inferred
+  bool friction_is_known = false;  ///< from the valve at work, not from rigs that move spool and armature apart
+};
+
 /// How well the observer does on the operating recordings.
 struct OperationFit {
   double score_before;  ///< see operation_score; both with the supply and the band's scale of the search
@@ -30,10 +37,10 @@ struct OperationFit {
   std::size_t samples;        ///< that were used: see replay.hpp
 };
 
-/// Pattern search of the smallest score, each parameter on a logarithmic scale inside its stated range, with a weak
-/// pull towards the values that `parameters` holds. Recordings need time, current, position and flow_reference; their
-/// meters are found. `progress` receives the share done.
+/// Pattern search of the smallest score, each parameter on a logarithmic scale inside its stated range, with a pull
+/// towards the values that `parameters` holds: a weak one, or where it is known a strong one. Recordings need time,
+/// current, position and flow_reference; their meters are found. `progress` receives the share done.
 OperationFit fit_operation(sensor::ObserverParameters<double>& parameters, const std::vector<OperatingRun>& recorded,
-                           double full_scale_m3_per_s, const std::function<void(double)>& progress);
+                           const InOperation& valve, const std::function<void(double)>& progress);
 
 }  // namespace spoolflow::calibration

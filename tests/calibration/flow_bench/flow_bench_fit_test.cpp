@@ -33,6 +33,9 @@ double friction_at(double x, double pressure_Pa) {
 struct StrokesLike {
   double flow_force_share = 1;        ///< of an edge with so much of the flow force
   double sticks_above_Pa = INFINITY;  ///< from there on the spool does not slide evenly, but sticks and slips
+  double stroke_s = 3;
+  double coil_Ohm = resistance_Ohm, warms_Ohm_per_s = 0;
+  double voltage_noise_V = 0.01;
 };
 
 /// Where a spool that sticks and slips by `slip_m` each time stands on its way to `x`, and what friction then exceeds
@@ -48,7 +51,7 @@ std::pair<double, double> sticking_at(double x, double direction) {
 
 /// Strokes both ways at each pressure difference, a rest at either end.
 recording::Recording strokes(const std::vector<double>& pressures_Pa, bool with_voltage, StrokesLike like = {}) {
-  constexpr double sampling_s = 2e-3, stroke_s = 3;
+  constexpr double sampling_s = 2e-3;
   recording::Recording out;
   out.file = "strokes.csv";
   std::mt19937 generator(3);
@@ -66,13 +69,14 @@ recording::Recording strokes(const std::vector<double>& pressures_Pa, bool with_
     out.column(Channel::current).push_back(current_A + 1e-3 * unit(generator));
     if (with_voltage)
       out.column(Channel::voltage)
-          .push_back(resistance_Ohm * current_A + (now_Wb - flux_Wb) / sampling_s + 0.01 * unit(generator));
+          .push_back((like.coil_Ohm + like.warms_Ohm_per_s * time_s) * current_A + (now_Wb - flux_Wb) / sampling_s +
+                     like.voltage_noise_V * unit(generator));
     out.column(Channel::pressure_difference).push_back(pressure_Pa);
     out.column(Channel::oil_temperature).push_back(323.15);
     flux_Wb = now_Wb;
   };
   for (const double pressure_Pa : pressures_Pa) {
-    const int samples = static_cast<int>(stroke_s / sampling_s);
+    const int samples = static_cast<int>(like.stroke_s / sampling_s);
     for (int k = 0; k < 200; ++k) put(0, 0, pressure_Pa);
     for (int k = 0; k <= samples; ++k) put(driven_stroke_m * k / samples, 1, pressure_Pa);
     for (int k = samples; k >= 0; --k) put(driven_stroke_m * k / samples, -1, pressure_Pa);
@@ -120,6 +124,19 @@ TEST(FlowBenchFit, FindsTheForcesInNewtonsFromVoltageAndMotionAlone) {
   }
   EXPECT_LT(fit.forces.residual_N, 0.2);
   EXPECT_NEAR(fit.flux_linkage.coil_resistance.resistance_Ohm, resistance_Ohm, 0.03);
+}
+
+/// Of a stroke of 12 s the flux induces some 10 mV, beside 30 V over a coil that warms.
+TEST(FlowBenchFit, FindsNewtonsInSlowStrokesOfACoilThatWarms) {
+  const StrokesLike slow{.stroke_s = 12, .coil_Ohm = 12, .warms_Ohm_per_s = 2e-3, .voltage_noise_V = 0.03};
+  const recording::Recording dry = strokes({0, 0}, true, slow), metering = strokes({5e5, 2e6, 4e6, 6e6}, true, slow);
+  const FlowBenchFit fit = fit_flow_bench({{&dry}, {&metering}, {}}, {}, driven_stroke_m);
+  for (const double x : {0.6e-3, 1.2e-3, 1.8e-3}) {
+    for (const double current_A : {1.4, 1.8}) {
+      const double force_N = force_per_A2 * current_A * current_A;
+      EXPECT_NEAR(fit.magnetic_force.at(current_A, x).value, force_N, 0.1 * force_N) << x << ' ' << current_A;
+    }
+  }
 }
 
 /// The closed form's solenoid as force benches measure it.

@@ -72,7 +72,7 @@ TEST(Operation, FindsTheFrictionRatioThatTheValveHas) {
     sensor::ObserverParameters<double> parameters = sensor::closed_form_observer<double>(valve);
     double shown = 0;
     const OperationFit fit =
-        fit_operation(parameters, only(run), valve.full_scale_m3_per_s(), [&](double share) { shown = share; });
+        fit_operation(parameters, only(run), {valve.full_scale_m3_per_s()}, [&](double share) { shown = share; });
     // The pull towards the ratio 1 costs most of it, where the ratio that is followed while running makes up for it.
     EXPECT_NEAR(parameters.friction.operation_ratio, truth, 0.17 * truth);
     EXPECT_LT(fit.score, 0.6 * fit.score_before) << truth;
@@ -83,12 +83,25 @@ TEST(Operation, FindsTheFrictionRatioThatTheValveHas) {
   }
 }
 
+TEST(Operation, MovesAFrictionThatTheValveAtWorkHasShownBeforeLess) {
+  const sensor::ClosedFormValve valve;
+  const recording::Recording run = recorded(valve, work(), 1.25);
+  const auto found = [&](bool known) {
+    sensor::ObserverParameters<double> parameters = sensor::closed_form_observer<double>(valve);
+    fit_operation(parameters, only(run), {valve.full_scale_m3_per_s(), known, known}, [](double) {});
+    return parameters.friction.operation_ratio;
+  };
+  const double of_rigs = found(false), of_work = found(true);
+  EXPECT_LT(of_work, of_rigs - 0.01);
+  EXPECT_GT(of_work, 1.1);  // where it is much off, it moves all the same
+}
+
 TEST(Operation, TakesFrictionAtRestAsAssumedWhereEveryRecordingIsDithered) {
   const sensor::ClosedFormValve valve;
   const recording::Recording dithered = recorded_under_dither(valve, work()), plain = recorded(valve, work(), 1);
   const auto fitted = [&](const std::vector<OperatingRun>& runs) {
     sensor::ObserverParameters<double> parameters = sensor::closed_form_observer<double>(valve);
-    return fit_operation(parameters, runs, valve.full_scale_m3_per_s(), [](double) {});
+    return fit_operation(parameters, runs, {valve.full_scale_m3_per_s()}, [](double) {});
   };
   const OperationFit blind = fitted(only(dithered)), both = fitted({{.recording = &dithered}, {.recording = &plain}});
   const auto identifies = [](const OperationFit& fit, const char* name) {
@@ -106,7 +119,7 @@ TEST(Operation, BandFromADitheredRecordingHoldsTheFlowWithoutDither) {
   const sensor::ClosedFormValve valve;
   const recording::Recording dithered = recorded_under_dither(valve, work()), plain = recorded(valve, work(), 1);
   sensor::ObserverParameters<double> parameters = sensor::closed_form_observer<double>(valve);
-  fit_operation(parameters, only(dithered), valve.full_scale_m3_per_s(), [](double) {});
+  fit_operation(parameters, only(dithered), {valve.full_scale_m3_per_s()}, [](double) {});
   sensor::Judgement judged;
   replay(parameters, only(plain), [&](const ReplayedSample& sample) {
     judged.add(sample.state.last, sample.reference_m3_per_s, valve.full_scale_m3_per_s());
@@ -120,7 +133,7 @@ TEST(Operation, LeavesTheMassWhereNothingIdentifiesIt) {
   const recording::Recording plain = recorded(valve, work(), 1);
   sensor::ObserverParameters<double> parameters = sensor::closed_form_observer<double>(valve);
   const double mass_kg = parameters.moving_mass_kg;
-  const OperationFit fit = fit_operation(parameters, only(plain), valve.full_scale_m3_per_s(), [](double) {});
+  const OperationFit fit = fit_operation(parameters, only(plain), {valve.full_scale_m3_per_s()}, [](double) {});
   EXPECT_EQ(parameters.moving_mass_kg, mass_kg);
   EXPECT_NE(std::ranges::find(fit.not_identifiable, "moving_mass_kg"), fit.not_identifiable.end());
 }
