@@ -17,6 +17,9 @@ namespace {
 constexpr int look_up_ms = 100;
 /// Callers who may not send that are closed before the connection that serves is looked at again.
 constexpr int most_strangers_at_once = 16;
+constexpr const char* nobody = "nobody is connected";
+/// A sender sends its line of names at once.
+constexpr std::int64_t names_within_ns = 1'000'000'000;
 
 }  // namespace
 
@@ -28,7 +31,7 @@ TcpSource::TcpSource(const Address& address, std::vector<std::string> allowed, r
       next_(after.next),
       intake_(intake) {
   options_.runs_on = true;
-  intake_.set_trouble("nobody is connected");
+  intake_.set_trouble(nobody);
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
@@ -62,14 +65,22 @@ void TcpSource::run(const std::stop_token& stop) {
     if (caller_.connection.number() < 0) continue;
     Caller serves = std::exchange(caller_, {});
     intake_.count_connection();
+    const std::string host = serves.host;
+    const std::int64_t connected_ns = steady_ns();
+    bool names_missed = false;
     const auto given_up = [&] {
+      if (!names_missed && steady_ns() - connected_ns > names_within_ns) {
+        names_missed = true;
+        if (intake_.trouble() == nobody)
+          intake_.set_trouble(fmt::format("{} is connected and has sent no line of names yet", host));
+      }
       if (caller_.connection.number() < 0) answer_callers(0);
       return stop.stop_requested() || caller_.connection.number() >= 0;
     };
     next_ =
         read_csv(std::make_unique<recording::InputBytes>(serves.connection.release(), std::move(serves.host), given_up),
                  options_, next_, intake_);
-    if (intake_.trouble().empty()) intake_.set_trouble("nobody is connected");
+    if (intake_.trouble().empty()) intake_.set_trouble(nobody);
   }
 }
 

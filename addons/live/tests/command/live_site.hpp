@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/apps/command_line.hpp"
@@ -34,9 +35,10 @@ class LiveSite : public CommandLine {
     nlohmann::json valve;
     for (int k = 0; k < 1500; ++k) {
       valve = valve_at(page);
-      if (condition(valve)) break;
+      if (condition(valve)) return valve;
       rest();
     }
+    ADD_FAILURE() << "the valve never was as awaited: " << valve.dump();
     return valve;
   }
 

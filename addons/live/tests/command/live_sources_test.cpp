@@ -95,7 +95,8 @@ TEST_F(LiveSource, OfRubbishIsCountedAndTheNextOneTaken) {
     const LoopbackSender rubbish(source);
     rubbish.send(std::string(20'000, '\xfe') + "\n\n\n");
     const Json valve =
-        valve_once(page, [](const Json& at) { return at["source"]["trouble"].get<std::string>().size() > 30; });
+        valve_once(page, [](const Json& at) { return at["source"]["trouble"] != "nobody is connected"; });
+    EXPECT_EQ(valve["source"]["trouble"], "127.0.0.1 is connected and has sent no line of names yet");
     EXPECT_EQ(valve["samples"], 0);
     EXPECT_TRUE(says(valve, "stalled"));
   }
