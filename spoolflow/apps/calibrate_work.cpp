@@ -35,9 +35,10 @@ void print_summary(const model::Model& model) {
   }
   const model::Uniqueness& uniqueness = model.evidence.uniqueness;
   say("  flow force determines the flow above {:.3g} mm of opening{}\n", units::mm_from_m(uniqueness.blind_below_m),
-      uniqueness.ambiguous_at_m.empty() ? ""
-                                        : fmt::format(", but is ambiguous at {} positions (see the model's evidence)",
-                                                      uniqueness.ambiguous_at_m.size()));
+      uniqueness.ambiguous_at_m.empty()
+          ? ""
+          : fmt::format(", but is ambiguous at {} position{} (see the model's evidence)",
+                        uniqueness.ambiguous_at_m.size(), uniqueness.ambiguous_at_m.size() == 1 ? "" : "s"));
   if (model.observer && std::ranges::count(model.observer->defaults, model::each_edge_alone) > 0) {
     fmt::print(stderr,
                "  A and B were joined, and the load passes unequal flows over both edges: they are assumed equal, and "

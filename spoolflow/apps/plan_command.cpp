@@ -98,10 +98,12 @@ void add_plan_command(CLI::App& program) {
   command->add_option("--seconds", arguments->seconds, "of recording at most, 60 unless given")
       ->type_name("S")
       ->check(between(1.0, 3600.0));
-  command->add_option("--scenario", arguments->scenario, "the same as a scenario for `spoolflow simulate`")
-      ->type_name("SCENARIO.toml");
+  CLI::Option* scenario =
+      command->add_option("--scenario", arguments->scenario, "the same as a scenario for `spoolflow simulate`")
+          ->type_name("SCENARIO.toml");
   command->add_option("--valve", arguments->valve, "of the scenario: built-in valve or file, size_6 unless given")
-      ->type_name("VALVE");
+      ->type_name("VALVE")
+      ->needs(scenario);
   add_quiet(*command, arguments->quiet);
   command->callback([arguments] { plan(*arguments); });
 }

@@ -59,8 +59,8 @@ void report_addresses(const live::Engine& engine, const live::PageSettings& page
     say("datagrams over UDP at {}\n", live::Address{engine.site().udp->host, engine.udp_port()}.text());
   }
   if (engine.site().store.empty()) say("nothing is kept: name a file with --store\n");
-  say("{} valves; page at {}://{}/ ; end with Ctrl-C\n", engine.size(), page.has_tls() ? "https" : "http",
-      page.listen.text());
+  say("{} valve{}; page at {}://{}/ ; end with Ctrl-C\n", engine.size(), engine.size() == 1 ? "" : "s",
+      page.has_tls() ? "https" : "http", page.listen.text());
 }
 
 /// What the fleet gets is kept until it has it, under a name that it knows.

@@ -30,7 +30,7 @@ class Kills : public LiveSite {
   /// Plays to the end, ends it, and takes the store away.
   Totals ended(double samples) {
     RunningCommand live(folder, {"live", "site.toml", "--store", "s.sqlite"});
-    EXPECT_THAT(live.message_line(), StartsWith("1 valves; page at"));
+    EXPECT_THAT(live.message_line(), StartsWith("1 valve; page at"));
     EXPECT_EQ(kept_samples(samples), samples);
     live.signal(SIGTERM);
     EXPECT_EQ(live.wait(), 0);
@@ -63,7 +63,7 @@ TEST_F(Kills, AtAnyInstantLeaveTotalsAsTheyWouldBe) {
   std::uniform_int_distribution<useconds_t> lives_us(0, 1'800'000);
   for (int k = 0; k < kills; ++k) {
     RunningCommand live(folder, {"live", "site.toml", "--store", "s.sqlite"});
-    EXPECT_THAT(live.message_line(), StartsWith("1 valves; page at"));
+    EXPECT_THAT(live.message_line(), StartsWith("1 valve; page at"));
     ::usleep(lives_us(random));
     live.signal(SIGKILL);
     EXPECT_EQ(live.wait(), 128 + SIGKILL);

@@ -39,7 +39,7 @@ TEST_F(Live, HistoryIsWhatCame) {
   write_site("{ kind = \"replay\", recording = \"run.csv\", speed = 0 }");
   {
     RunningCommand live(folder, {"live", "site.toml", "--store", "s.sqlite"});
-    EXPECT_THAT(live.message_line(), StartsWith("1 valves; page at"));
+    EXPECT_THAT(live.message_line(), StartsWith("1 valve; page at"));
     for (int k = 0; k < 3000 && kept("SELECT samples FROM state") < 3000; ++k) ::usleep(10000);
     live.signal(SIGINT);
     EXPECT_EQ(live.wait(), 0);
@@ -61,7 +61,7 @@ TEST_F(Live, AnHdf5FileIsReplayedOverAndOver) {
   write_site("{ kind = \"replay\", recording = \"" SPOOLFLOW_EXAMPLES
              "/valve_a/ramp_60bar.h5\", speed = 0, repeats = true }");
   RunningCommand live(folder, {"live", "site.toml", "--store", "s.sqlite"});
-  EXPECT_THAT(live.message_line(), StartsWith("1 valves; page at"));
+  EXPECT_THAT(live.message_line(), StartsWith("1 valve; page at"));
   constexpr double three_passes = 3 * 47000;
   for (int k = 0; k < 3000 && kept("SELECT samples FROM state") <= three_passes; ++k) ::usleep(10000);
   live.signal(SIGINT);
