@@ -8,12 +8,12 @@
 
 namespace spoolflow::calibration {
 
-/// Samples with the magnetising current [A] at each sample's instant; NaN where it is not known.
+/// Samples with the magnetising current [A] at each sample's instant; NaN where it is not known. Flux changes are taken
+/// over some samples each; with `longest_window_s` > 0 over up to twice that, from quiet current to quiet current.
 struct FluxEvidence {
   const SolenoidSamples* samples;
   std::vector<double> magnetising_current_A;
-  double longest_window_s =
-      0;  ///< > 0: flux changes are taken over longer windows, from quiet current to quiet current
+  double longest_window_s = 0;
 };
 
 /// While the armature is held, the load cell gives the magnetising current at any speed: the averaged force map
