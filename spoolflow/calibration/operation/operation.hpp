@@ -19,9 +19,8 @@ namespace spoolflow::calibration {
 /// The valve of the operating recordings.
 struct InOperation {
   double rated_flow_m3_per_s;
-  bool on_flow_bench = false;  ///< some of its forces are inferred
-  bool friction_is_known =
-      false;  ///< that of sliding, from this valve at work; force rigs move spool and armature apart
+  bool on_flow_bench = false;      ///< some of its forces are inferred
+  bool friction_is_known = false;  ///< that of sliding, from this valve as a whole
 };
 
 /// How well the observer does on the operating recordings.
