@@ -81,18 +81,23 @@ struct Window {
   std::size_t begin, end;
 };
 
+/// What the current of a quiet coil changes by from sample to sample at most.
+double quiet_change_A(const SolenoidSamples& samples) {
+  std::vector<double> current_A;
+  for (const auto& sample : samples.samples) current_A.push_back(sample.current_A);
+  const double largest_A = std::ranges::max(current_A, {}, [](double each) { return std::abs(each); });
+  return std::fmax(quiet_deviations * noise_of(current_A), 1e-3 * largest_A);
+}
+
 /// Successive windows of a recording.
 std::vector<Window> windows_of(const FluxEvidence& evidence, const FluxMap& map) {
   const SolenoidSamples& s = *evidence.samples;
-  std::vector<double> current_A;
-  for (const auto& sample : s.samples) current_A.push_back(sample.current_A);
-  const double quiet_A = std::fmax(quiet_deviations * noise_of(current_A),
-                                   1e-3 * std::ranges::max(current_A, {}, [](double each) { return std::abs(each); }));
-  const double change_A = longer_window_cells * map.row_axis.spacing;
-  const double change_m = longer_window_cells * map.column_axis.spacing;
+  const double quiet_A = evidence.longest_window_s > 0 ? quiet_change_A(s) : 0;
+  const auto change_A = [&](std::size_t from, std::size_t to) {
+    return std::abs(s.samples[to].current_A - s.samples[from].current_A);
+  };
   const auto quiet = [&](std::size_t k) {
-    return k + 1 >= s.size() ||
-           (std::abs(current_A[k] - current_A[k - 1]) < quiet_A && std::abs(current_A[k + 1] - current_A[k]) < quiet_A);
+    return k + 1 >= s.size() || (change_A(k - 1, k) < quiet_A && change_A(k, k + 1) < quiet_A);
   };
   std::vector<Window> out;
   for (std::size_t begin = 0; begin + window_samples < s.size(); begin = out.back().end) {
@@ -100,8 +105,9 @@ std::vector<Window> windows_of(const FluxEvidence& evidence, const FluxMap& map)
     const auto goes_on = [&] {
       const double lasts_s = s.time_s[end] - s.time_s[begin];
       if (!quiet(end)) return lasts_s < 2 * evidence.longest_window_s;
-      return lasts_s < evidence.longest_window_s && std::abs(current_A[end] - current_A[begin]) < change_A &&
-             std::abs(s.samples[end].position_m - s.samples[begin].position_m) < change_m;
+      return lasts_s < evidence.longest_window_s && change_A(begin, end) < longer_window_cells * map.row_axis.spacing &&
+             std::abs(s.samples[end].position_m - s.samples[begin].position_m) <
+                 longer_window_cells * map.column_axis.spacing;
     };
     while (end + 1 < s.size() && s.restarts[end] == 0 && goes_on()) ++end;
     out.push_back({begin, end});
