@@ -6,9 +6,11 @@
 #include <fmt/format.h>
 
 #include "spoolflow/plausibility/block_means.hpp"
+#include "spoolflow/plausibility/clipped_channel.hpp"
 #include "spoolflow/plausibility/coil_currents.hpp"
 #include "spoolflow/plausibility/frozen_channel.hpp"
 #include "spoolflow/plausibility/limits.hpp"
+#include "spoolflow/plausibility/motion_delay.hpp"
 #include "spoolflow/plausibility/relation.hpp"
 
 namespace spoolflow::plausibility {
@@ -33,6 +35,14 @@ std::vector<Finding> channel_findings(const std::vector<const Recording*>& campa
     add(means, true, signed_coil_currents(means));
     if (changes_per_s * range_of(means.column(Channel::time)) >= fewest_oil_changes)
       add(means, false, frozen_oil_temperature(means));
+  }
+  for (const Recording* recording : campaign) {
+    ClippedChannels clipped;
+    clipped.take(recording->columns);
+    for (const std::string& each : clipped.findings()) add(*recording, true, each);
+    MotionDelay delay;
+    delay.take(recording->columns);
+    if (const auto late_s = delay.late_s()) add(*recording, true, shown_delay(*late_s));
   }
   return out;
 }

@@ -113,24 +113,6 @@ std::vector<double> drive_of(const Recording& means, const Driven& driven) {
   return out;
 }
 
-/// A value in SI as its channel's usual unit has it.
-std::string shown(Channel channel, double value) {
-  switch (recording::dimension(channel)) {
-    case units::Dimension::length:
-      return fmt::format("{:.4g} mm", units::mm_from_m(value));
-    case units::Dimension::pressure:
-      return fmt::format("{:.4g} bar", units::bar_from_Pa(value));
-    case units::Dimension::volume_flow:
-      return fmt::format("{:.4g} L/min", units::L_per_min_from_m3_per_s(value));
-    case units::Dimension::current:
-      return fmt::format("{:.4g} A", value);
-    case units::Dimension::voltage:
-      return fmt::format("{:.4g} V", value);
-    default:
-      return fmt::format("{:.4g} N", value);
-  }
-}
-
 std::string oil_temperature_stands(const Recording& means, double shortest_s) {
   const std::vector<double>&values = means.column(Channel::oil_temperature), &time_s = means.column(Channel::time);
   if (values.empty() || !(range_of(time_s) >= shortest_s) || longest_stretch(values).size != values.size()) return {};
@@ -162,7 +144,7 @@ std::string frozen_channel(const Recording& means) {
     return fmt::format(
         "{} is frozen at {} from {:.2f} to {:.2f} s while {} goes on: its wire, its amplifier or the recorder stopped; "
         "look at them and record it again, or cut that part",
-        recording::name(driven.channel == Channel::flow ? flow : driven.channel), shown(driven.channel, value),
+        recording::name(driven.channel == Channel::flow ? flow : driven.channel), shown_value(driven.channel, value),
         time_s[still.begin], time_s[still.begin + still.size - 1], recording::name(driven.by));
   }
   return {};

@@ -48,7 +48,17 @@ inline constexpr double line_over_neighbours = 10;      ///< power of a spectrum
 inline constexpr double beside_dither = 2.5;            ///< of the position's noise; without dither a line of 1 shows
 inline constexpr double beat_share = 1e-3;              ///< of the largest current
 inline constexpr double beat_beside_dither = 4e-3;      ///< the same; dither and the pump mix to 2.5e-3
-inline constexpr double surely = 1.5;                   ///< times a limit: no valve does that
+inline constexpr double clipped_share = 1e-3;           ///< of a recording's samples, at its highest or lowest value
+inline constexpr double fewest_clipped = 20;            ///< such samples
+inline constexpr double most_repeated_share = 0.3;      ///< of samples like the one before, elsewhere
+inline constexpr double least_reversal_share = 0.1;     ///< of changes that go back; of white noise two thirds
+inline constexpr double near_zero_share = 0.02;         ///< of the largest value: pump or coil is off
+inline constexpr double least_motion_correlation = 0.45;  ///< of changes of current and position, over ten seconds
+inline constexpr double agreeing_share = 0.6;             ///< of such pieces, and
+inline constexpr double same_delay_s = 0.035;             ///< apart
+inline constexpr double earliest_motion_s = -0.055;  ///< of a position behind its current; sound runs have 0 to 0.09
+inline constexpr double latest_motion_s = 0.15;
+inline constexpr double surely = 1.5;  ///< times a limit: no valve does that
 inline constexpr double impossible = 10;
 
 }  // namespace spoolflow::plausibility

@@ -28,6 +28,23 @@ double factor_over(double value, double usual, double factor) {
   return value > 0 ? std::abs(std::log(value / usual)) / std::log(factor) : 20.0;
 }
 
+std::string shown_value(Channel channel, double value) {
+  switch (recording::dimension(channel)) {
+    case units::Dimension::length:
+      return fmt::format("{:.4g} mm", units::mm_from_m(value));
+    case units::Dimension::pressure:
+      return fmt::format("{:.4g} bar", units::bar_from_Pa(value));
+    case units::Dimension::volume_flow:
+      return fmt::format("{:.4g} L/min", units::L_per_min_from_m3_per_s(value));
+    case units::Dimension::current:
+      return fmt::format("{:.4g} A", value);
+    case units::Dimension::voltage:
+      return fmt::format("{:.4g} V", value);
+    default:
+      return fmt::format("{:.4g} N", value);
+  }
+}
+
 std::string file_of(const Recording& recording) {
   return recording.file.filename().string();
 }

@@ -24,6 +24,8 @@ inline constexpr const char* reference_ratio = "reference flow over that of edge
 /// How far `value` is from what is usual, in units of the largest factor that is: the logarithm of both; 20 where it
 /// has the wrong sign.
 [[nodiscard]] double factor_over(double value, double usual, double factor);
+/// A value in SI as its channel's usual unit has it: "1.431 A".
+[[nodiscard]] std::string shown_value(recording::Channel channel, double value);
 /// The recording's file without its folder.
 [[nodiscard]] std::string file_of(const recording::Recording& recording);
 /// Positions lie within the stroke, bench strokes go over half of it at least.

@@ -303,6 +303,10 @@ std::vector<Finding> run_findings(const std::vector<KnownValve>& valve, const Ru
     out.push_back({false, fmt::format("{}: {}", name, oil)});
   if (const std::string oil = temperature_in_another_unit(trial.run, valve.front().oil_temperature_K); !oil.empty())
     out.push_back({false, fmt::format("{}: {}", name, oil)});
+  for (const std::string& clipped : run.clipped().findings())
+    out.push_back({true, fmt::format("{}: {}", name, clipped)});
+  if (const auto late_s = run.motion_delay().late_s())
+    out.push_back({true, fmt::format("{}: {}", name, shown_delay(*late_s))});
   std::vector<double>& reference = trial.run.column(Channel::flow);
   const std::vector<double>& time_s = trial.run.column(Channel::time);
   if (const auto shift = reference_shift(time_s, trial.expected_flow(), reference)) {

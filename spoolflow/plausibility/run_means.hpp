@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "spoolflow/plausibility/clipped_channel.hpp"
+#include "spoolflow/plausibility/motion_delay.hpp"
 #include "spoolflow/plausibility/position_resolution.hpp"
 #include "spoolflow/plausibility/steady_lines.hpp"
 #include "spoolflow/recording/reader.hpp"
@@ -29,6 +31,8 @@ class RunMeans {
   [[nodiscard]] const Gaps& gaps() const { return gaps_; }
   [[nodiscard]] const PositionResolution& position_resolution() const { return position_resolution_; }
   [[nodiscard]] const SteadyLines& steady_lines() const { return steady_lines_; }
+  [[nodiscard]] const ClippedChannels& clipped() const { return clipped_; }
+  [[nodiscard]] const MotionDelay& motion_delay() const { return motion_delay_; }
 
  private:
   struct Column {
@@ -45,6 +49,8 @@ class RunMeans {
   Gaps gaps_;
   PositionResolution position_resolution_;
   SteadyLines steady_lines_;
+  ClippedChannels clipped_;
+  MotionDelay motion_delay_;
   double last_s_ = 0;
   bool begun_ = false;
 };

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/numerics/held_extremes.hpp"
 #include "spoolflow/numerics/median.hpp"
 #include "spoolflow/recording/channels/allowed_names.hpp"
 #include "spoolflow/recording/column_survey.hpp"
@@ -21,36 +22,27 @@ constexpr std::size_t steps_learned = 2000;  ///< time steps from which the medi
 
 /// A channel followed through the stream.
 struct Follower {
-  double lowest = INFINITY, highest = -INFINITY, sum = 0;
-  std::uint64_t samples = 0, missing = 0;
-  std::uint64_t at_lowest = 0, at_highest = 0;  ///< samples in runs of at least three equal values at that extreme
-  double last = NAN;
-  std::uint64_t run = 0;
+  numerics::HeldExtremes extremes;
+  double sum = 0;
+  std::uint64_t missing = 0;
 
   void take(double value) {
+    extremes.take(value);
     if (std::isnan(value)) {
       ++missing;
-      return;
+    } else {
+      sum += value;
     }
-    ++samples;
-    sum += value;
-    if (value < lowest) lowest = value, at_lowest = 0;
-    if (value > highest) highest = value, at_highest = 0;
-    run = value == last ? run + 1 : 1;
-    last = value;
-    const std::uint64_t counted = run == 3 ? 3 : (run > 3 ? 1 : 0);
-    if (value == lowest) at_lowest += counted;
-    if (value == highest) at_highest += counted;
   }
   [[nodiscard]] ChannelSummary summary(Channel channel) const {
-    const auto n = static_cast<double>(std::max<std::uint64_t>(1, samples));
-    const bool moves = highest > lowest;
+    const auto n = static_cast<double>(std::max<std::uint64_t>(1, extremes.samples));
+    const bool any = extremes.samples > 0, moves = extremes.highest > extremes.lowest;
     return {channel,
-            samples > 0 ? lowest : NAN,
-            samples > 0 ? highest : NAN,
-            samples > 0 ? sum / n : NAN,
+            any ? extremes.lowest : NAN,
+            any ? extremes.highest : NAN,
+            any ? sum / n : NAN,
             missing,
-            moves ? static_cast<double>(at_lowest + at_highest) / n : 0.0};
+            moves ? static_cast<double>(extremes.at_lowest + extremes.at_highest) / n : 0.0};
   }
 };
 

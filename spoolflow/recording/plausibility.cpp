@@ -58,7 +58,7 @@ Plausibility::Limits Plausibility::limits_of(Channel channel, std::optional<doub
 }
 
 Plausibility::Plausibility(std::string file, const std::vector<BoundColumn>& columns, std::optional<double> stroke_m)
-    : file_(std::move(file)) {
+    : file_(std::move(file)), stroke_m_(stroke_m) {
   for (const BoundColumn& column : columns) {
     const bool larger_unit =
         column.unit.dimension == dimension(column.channel) &&  // not a share of the stroke
@@ -85,6 +85,10 @@ std::string Plausibility::better_units(const Watched& watched, double value, dou
                                     std::abs(then) >= watched.limits.smallest;
     if (fits) out += fmt::format("{}{}", out.empty() ? "" : " or ", unit.name);
   }
+  const double share_m = written / 100 * stroke_m_.value_or(0);  // of a position in percent
+  if (now.dimension == Dimension::length &&
+      in_range(std::abs(share_m), watched.limits.smallest, 1.2 * stroke_m_.value_or(0)))
+    out += fmt::format("{}percent of the stroke", out.empty() ? "" : " or ");
   return out;
 }
 
@@ -111,7 +115,10 @@ void Plausibility::take(std::size_t column, std::span<const double> values,
     const auto first =
         std::find_if(values.begin(), values.end(), [=](double value) { return value < lowest || value > highest; });
     const units::Unit& unit = watched.column->unit;
-    const std::string better = better_units(watched, *first, 0.0);
+    // What a unit that is too small makes of its first value beyond fits many others, its largest one few.
+    const double worst =
+        *std::ranges::max_element(values, {}, [](double value) { return std::isnan(value) ? 0 : std::abs(value); });
+    const std::string better = better_units(watched, worst, 0.0);
     throw RecordingError(fmt::format(
         "{}, column '{}': channel {} is {:.6g} {}, beyond {:.4g} to {:.4g} {} ({}); {}",
         place(static_cast<std::size_t>(first - values.begin())), watched.column->name, name(watched.column->channel),

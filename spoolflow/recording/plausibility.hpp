@@ -50,6 +50,7 @@ class Plausibility {
   void check_sampling(const Watched& time, std::span<const double> time_s) const;
 
   std::string file_;
+  std::optional<double> stroke_m_;
   std::vector<Watched> watched_;
 };
 

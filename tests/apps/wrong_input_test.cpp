@@ -147,6 +147,15 @@ TEST_F(WrongInput, UnitThatDoesNotFit) {
                            {"bad.csv", "current_bar", "allowed: A, mA"});
   expect_recording_refused(table("time_s,current_A,voltage_V,position_m,oil_temperature_C\n", rows()),
                            {"bad.csv", "position", "is its unit mm instead"}, InAStream::answered);
+  const auto with_position = [](double per_mm) {
+    std::vector<Row> lines = rows();
+    for (Row& row : lines) row[3] = fmt::format("{:.3f}", per_mm * std::stod(row[3]));
+    return table(header, lines);
+  };
+  constexpr double um = 1000, percent_of_stroke = 100 / 2.4;
+  expect_recording_refused(with_position(um), {"bad.csv, line 2", "is its unit um instead"}, InAStream::answered);
+  expect_recording_refused(with_position(percent_of_stroke), {"bad.csv", "percent of the stroke instead"},
+                           InAStream::answered);
 }
 
 TEST_F(WrongInput, TimeRunningBackwards) {

@@ -1,0 +1,144 @@
+/// What amplifiers and recorders do to a channel: clipped ends, and clocks that differ. Of sound recordings, and of
+/// signals that stand at an end by themselves, nothing is said.
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "spoolflow/plausibility/channel_findings.hpp"
+#include "spoolflow/plausibility/clipped_channel.hpp"
+#include "spoolflow/plausibility/motion_delay.hpp"
+#include "spoolflow/recording/reader.hpp"
+#include "tests/plausibility/example_campaign.hpp"
+#include "tests/plausibility/finding_texts.hpp"
+
+namespace spoolflow::plausibility {
+namespace {
+
+using recording::Channel;
+using recording::Recording;
+
+const RigBenches& example() {
+  static const RigBenches valve = example_benches();
+  return valve;
+}
+const Recording& duty_cycle() {
+  static const Recording run = recording::read_recording(SPOOLFLOW_EXAMPLES "/valve_a/duty_cycle_1.h5", {});
+  return run;
+}
+
+/// The value below which a share of the samples lies.
+double quantile(std::vector<double> values, double share) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+TEST(ClippedChannel, IsNamedInAnyBenchTestOrRun) {
+  const std::vector<std::pair<std::string, Channel>> channels{{"spring.h5", Channel::axial_force},
+                                                              {"solenoid_map.h5", Channel::force},
+                                                              {"solenoid_dynamic.h5", Channel::current},
+                                                              {"axial_force_map_50.h5", Channel::axial_force},
+                                                              {"axial_force_map_50.h5", Channel::pressure_upstream},
+                                                              {"axial_force_map_50.h5", Channel::flow},
+                                                              {"ramp_60bar.h5", Channel::current},
+                                                              {"ramp_60bar.h5", Channel::position}};
+  for (const auto& [file, channel] : channels) {
+    Recording clipped = example().recordings.at(file);
+    const double end = quantile(clipped.column(channel), 0.95);
+    for (double& value : clipped.column(channel)) value = std::min(value, end);
+    EXPECT_THAT(all_texts(channel_findings({&clipped})),
+                testing::HasSubstr(fmt::format("{}: {} stands at its highest value", file, recording::name(channel))));
+  }
+}
+
+TEST(ClippedChannel, IsNamedAtItsLowestValueAsWell) {
+  Recording run = duty_cycle();
+  std::vector<double>& position_m = run.column(Channel::position);
+  const double end = quantile(position_m, 0.02);
+  for (double& value : position_m) value = std::max(value, end);
+  EXPECT_THAT(all_texts(channel_findings({&run})), testing::HasSubstr("position stands at its lowest value"));
+}
+
+TEST(ClippedChannel, IsNoneThatStandsAtItsEndByItself) {
+  std::vector<double> noise_free, off, coarse;
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0, 1e-3);
+  for (int k = 0; k < 20'000; ++k) {
+    const double ramp = std::abs(k % 4000 - 2000) / 2000.0;
+    noise_free.push_back(std::min(ramp, 0.8));                 // rests at its stop
+    off.push_back(std::max(ramp - 0.5 + noise(random), 0.0));  // a pump that is off, of a one-sided converter
+    coarse.push_back(0.01 * std::round(100 * std::min(ramp, 0.8) + 0.1));  // steps that hide the noise
+  }
+  for (const std::vector<double>& signal : {noise_free, off, coarse}) {
+    Recording run;
+    run.column(Channel::pressure_upstream) = signal;
+    ClippedChannels clipped;
+    clipped.take(run.columns);
+    EXPECT_THAT(clipped.findings(), testing::IsEmpty());
+  }
+}
+
+/// The position comes so much later beside the other channels; what lacks then repeats its end.
+Recording position_late(const Recording& run, double late_s) {
+  Recording out = run;
+  const std::vector<double>& sound = run.column(Channel::position);
+  const std::vector<double>& time_s = run.column(Channel::time);
+  const auto last = static_cast<std::ptrdiff_t>(run.size()) - 1;
+  const std::ptrdiff_t rows = std::lround(late_s / (time_s[1] - time_s[0]));
+  for (std::ptrdiff_t k = 0; k <= last; ++k)
+    out.column(Channel::position)[static_cast<std::size_t>(k)] =
+        sound[static_cast<std::size_t>(std::clamp(k - rows, std::ptrdiff_t{0}, last))];
+  return out;
+}
+std::optional<double> delay_of(const Recording& run) {
+  MotionDelay delay;
+  delay.take(run.columns);
+  return delay.late_s();
+}
+
+TEST(MotionDelay, IsFoundBesideWhatASpoolTakes) {
+  EXPECT_EQ(delay_of(duty_cycle()), std::nullopt);
+  for (const double late_s : {-2.0, -0.2, 0.2, 2.0}) {
+    const std::optional<double> found_s = delay_of(position_late(duty_cycle(), late_s));
+    ASSERT_TRUE(found_s) << late_s;
+    EXPECT_NEAR(*found_s, late_s + 0.04, 0.03);  // a spool of this valve follows its current within 10 to 70 ms
+  }
+}
+
+TEST(MotionDelay, IsFoundOfAWholeValveWhoseCoilsMoveItEitherWay) {
+  Recording both = duty_cycle();
+  const std::vector<double> current_A = both.column(Channel::current);
+  both.column(Channel::current).clear();
+  for (const double each_A : current_A) {
+    both.column(Channel::current_b).push_back(0.5 + each_A / 2);
+    both.column(Channel::current_a).push_back(0.5 - each_A / 2);
+  }
+  EXPECT_EQ(delay_of(both), std::nullopt);
+  EXPECT_TRUE(delay_of(position_late(both, 0.2)));
+}
+
+TEST(MotionDelay, IsNoneOfSlowStrokesWhereFrictionTurnsTheCurrentLongBeforeTheSpool) {
+  const Recording& ramp = example().recordings.at("ramp_60bar.h5");
+  for (const double late_s : {0.0, 0.5}) EXPECT_EQ(delay_of(position_late(ramp, late_s)), std::nullopt);
+}
+
+TEST(MotionDelay, IsSaidOfARunInACampaign) {
+  Recording late = position_late(duty_cycle(), 0.3);
+  late.file = "duty.h5";
+  EXPECT_THAT(all_texts(channel_findings({&late})),
+              testing::MatchesRegex("duty.h5: position comes 0.3. s late against current.*\n"));
+  Recording early = position_late(duty_cycle(), -0.3);
+  early.file = "duty.h5";
+  EXPECT_THAT(all_texts(channel_findings({&early})),
+              testing::MatchesRegex("duty.h5: current comes 0.2. s late against position.*\n"));
+}
+
+}  // namespace
+}  // namespace spoolflow::plausibility
