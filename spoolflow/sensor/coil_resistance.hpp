@@ -56,6 +56,14 @@ struct CoilResistanceState {
 
 static_assert(std::is_trivially_copyable_v<CoilResistanceState<float>>);
 
+/// What the calibrated resistance leaves of the voltage for the flux linkage [V], in size, at a current [A]: the larger
+/// of two samples' voltages; NaN where either has none.
+template <class T>
+constexpr T voltage_for_flux_V(const CoilResistance<T>& coil, T current_A, T one_V, T other_V) {
+  const T held_V = coil.resistance_Ohm * current_A;
+  return larger(magnitude(one_V - held_V), magnitude(other_V - held_V)) + T(0) * (one_V + other_V);
+}
+
 /// One sample, `time_step_s` long. A voltage that is NaN leaves it out.
 template <class T>
 SPOOLFLOW_INLINE constexpr void collect(CoilResistanceState<T>& state, const CoilEquation<T>& sample, T time_step_s) {

@@ -81,10 +81,16 @@ template <class T>
 SPOOLFLOW_INLINE constexpr const Sample<T>& credible(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                                      const Sample<T>& measured) {
   const T last_A = state.position.coil.current_A;
+  const CurrentStep<T> current{last_A, measured.current_A};
   const bool holds =
-      is_held(valve.current_limits, {last_A, measured.current_A}, measured.time_step_s, state.held_currents, [&] {
+      is_held(valve.current_limits, current, measured.time_step_s, state.held_currents, [&](T fastest_A) {
         const T last_m = state.position.last_m;
-        return moved_current_A(valve.actuator.coil, last_A, last_m, measured.position_m - last_m);
+        return possible_change_A(valve.actuator.coil, current,
+                                 {last_m, measured.position_m - last_m,
+                                  voltage_for_flux_V(valve.actuator.coil_resistance, last_A,
+                                                     state.position.coil.voltage_V, measured.voltage_V),
+                                  measured.time_step_s},
+                                 fastest_A);
       });
   state.held_currents = held_in_a_row(state.held_currents, holds);
   if (likely(!holds)) return measured;

@@ -22,21 +22,20 @@ struct CurrentStep {
   T now_A;
 };
 
-/// Whether the current leapt as the coil's equation allows none. `moved_A`, >= 0: what the spool's motion adds.
-template <class T>
-SPOOLFLOW_INLINE constexpr bool leaps(const CurrentLimits<T>& limits, const CurrentStep<T>& current, T time_step_s,
-                                      T moved_A) {
-  return magnitude(current.now_A - current.before_A) > limits.jump_A + limits.slope_A_per_s * time_step_s + moved_A &&
-         limits.jump_A > T(0);
-}
+/// A change beyond `jump_A` is asked about where it is more than this share of the fastest.
+inline constexpr double questioned_change_share = 0.25;
 
-/// Whether the last current stands in for this one, where it did in `held` samples in a row before. `moved_A()`, which
-/// is asked where the spool at rest would not explain the current: by how much its motion may have changed it.
-template <class T, class Moved>
+/// Whether the last current stands in for this one, where it did in `held` samples in a row before: it leapt as the
+/// coil's equation allows none. `possible_A(fastest_A)`, which is asked where the change is a considerable one: by how
+/// much the current may have changed beside eddy currents and noise, where any voltage makes it change by `fastest_A`
+/// at most.
+template <class T, class Possible>
 SPOOLFLOW_INLINE constexpr bool is_held(const CurrentLimits<T>& limits, const CurrentStep<T>& current, T time_step_s,
-                                        int held, const Moved& moved_A) {
-  return unlikely(leaps(limits, current, time_step_s, T(0))) && held < most_held_currents &&
-         leaps(limits, current, time_step_s, moved_A());
+                                        int held, const Possible& possible_A) {
+  const T beyond_A = magnitude(current.now_A - current.before_A) - limits.jump_A;
+  const T fastest_A = limits.slope_A_per_s * time_step_s;
+  return unlikely(beyond_A > T(questioned_change_share) * fastest_A) && limits.jump_A > T(0) &&
+         held < most_held_currents && beyond_A > possible_A(fastest_A);
 }
 
 /// Samples in a row in which the last current stood in, this one included.
