@@ -23,6 +23,7 @@ constexpr double block_s = 0.01;
 constexpr std::size_t most_followed_blocks = 30'000, piece_blocks = 1000, most_shift_blocks = 500, change_blocks = 3;
 /// Of the power that the position has where it moves most: shifts at which it hardly moves say nothing.
 constexpr double least_power_share = 0.05;
+constexpr double as_well_share = 0.7;  // of the best correlation
 
 /// Changes of a signal over 30 ms; 0 where one of both ends is missing.
 std::vector<double> changes(const std::vector<double>& means) {
@@ -39,27 +40,24 @@ Signal signal(std::span<const double> values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
 
-struct Peak {
-  double correlation = 0, late_s = 0;
-};
-
 /// Where the changes of position [m] in `reach`, which begins `most_shift_blocks` before the piece, follow those of the
-/// current [A] best.
-Peak best_shift(std::span<const double> current, std::span<const double> reach) {
-  const std::size_t shifts = 2 * most_shift_blocks + 1;
-  std::vector<double> power(shifts);
-  for (std::size_t k = 0; k < shifts; ++k) power[k] = signal(reach.subspan(k, current.size())).squaredNorm();
-  const double current_power = signal(current).squaredNorm(), least_power = least_power_share * std::ranges::max(power);
-  Peak out;
-  if (!(current_power > 0) || !(least_power > 0)) return out;
-  for (std::size_t k = 0; k < shifts; ++k) {
-    if (power[k] < least_power) continue;
-    const double correlation =
-        signal(current).dot(signal(reach.subspan(k, current.size()))) / std::sqrt(current_power * power[k]);
-    if (correlation > out.correlation)
-      out = {correlation, (static_cast<double>(k) - static_cast<double>(most_shift_blocks)) * block_s};
+/// current [A] best, in seconds; nothing where they do not, or as well within a wide range of shifts.
+std::optional<double> clear_shift_s(std::span<const double> current, std::span<const double> reach) {
+  std::vector<double> power, correlation;
+  for (std::size_t k = 0; k <= 2 * most_shift_blocks; ++k) {
+    const Signal position = signal(reach.subspan(k, current.size()));
+    power.push_back(position.squaredNorm());
+    correlation.push_back(signal(current).dot(position));
   }
-  return out;
+  const double current_power = signal(current).squaredNorm(), least_power = least_power_share * std::ranges::max(power);
+  if (!(current_power > 0) || !(least_power > 0)) return std::nullopt;
+  for (std::size_t k = 0; k < power.size(); ++k)
+    correlation[k] = power[k] < least_power ? 0 : correlation[k] / std::sqrt(current_power * power[k]);
+  const auto best = std::ranges::max_element(correlation);
+  const auto as_well = std::ranges::count_if(correlation, [&](double each) { return each > as_well_share * *best; });
+  if (*best < least_motion_correlation || static_cast<double>(as_well) * block_s > widest_motion_peak_s)
+    return std::nullopt;
+  return static_cast<double>(best - correlation.begin() - static_cast<std::ptrdiff_t>(most_shift_blocks)) * block_s;
 }
 
 }  // namespace
@@ -104,9 +102,9 @@ std::optional<double> MotionDelay::late_s() const {
   reach.insert(reach.end(), most_shift_blocks, 0.0);
   std::vector<double> late_s;
   for (std::size_t begin = 0; begin + piece_blocks <= current.size(); begin += piece_blocks) {
-    const Peak peak = best_shift(std::span(current).subspan(begin, piece_blocks),
-                                 std::span(reach).subspan(begin, piece_blocks + 2 * most_shift_blocks));
-    if (peak.correlation >= least_motion_correlation) late_s.push_back(peak.late_s);
+    const auto shift_s = clear_shift_s(std::span(current).subspan(begin, piece_blocks),
+                                       std::span(reach).subspan(begin, piece_blocks + 2 * most_shift_blocks));
+    if (shift_s) late_s.push_back(*shift_s);
   }
   const double middle_s = numerics::median(late_s);
   const auto agree =

@@ -129,6 +129,19 @@ TEST(MotionDelay, IsNoneOfSlowStrokesWhereFrictionTurnsTheCurrentLongBeforeTheSp
   for (const double late_s : {0.0, 0.5}) EXPECT_EQ(delay_of(position_late(ramp, late_s)), std::nullopt);
 }
 
+/// Triangles, each of which the current begins some time before the spool.
+TEST(MotionDelay, IsNoneOfTrianglesBehindFrictionHoweverAlikeTheyAre) {
+  Recording run;
+  for (int k = 0; k < 90'000; ++k) {
+    const double time_s = 1e-3 * k, period_s = 5;
+    const auto triangle = [&](double at_s) { return std::abs(std::remainder(at_s, period_s)) / period_s; };
+    run.column(Channel::time).push_back(time_s);
+    run.column(Channel::position).push_back(2e-3 * triangle(time_s - 0.3));
+    run.column(Channel::current).push_back(1.5 * triangle(time_s));
+  }
+  EXPECT_EQ(delay_of(run), std::nullopt);
+}
+
 TEST(MotionDelay, IsSaidOfARunInACampaign) {
   Recording late = position_late(duty_cycle(), 0.3);
   late.file = "duty.h5";
