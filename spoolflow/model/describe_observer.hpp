@@ -114,9 +114,11 @@ void describe_actuator(Actuator& actuator, Visitor& visitor) {
                   .limits = {0, 10},
                   .meaning = "one standard deviation of the magnetising current at rest"},
                  actuator.current_uncertainty_A);
-  visitor.number(
-      {.key = "eddy_current_uncertainty", .unit = "1", .limits = {0, 10}, .meaning = "its growth per eddy current"},
-      actuator.eddy_uncertainty);
+  visitor.number({.key = "eddy_current_uncertainty",
+                  .unit = "1",
+                  .limits = {0, sensor::largest_eddy_uncertainty},
+                  .meaning = "its growth per eddy current"},
+                 actuator.eddy_uncertainty);
 }
 
 /// Calls visitor.axis(AxisParameter, axis, points) and visitor.volume(TableParameter, volume); the volumes share the

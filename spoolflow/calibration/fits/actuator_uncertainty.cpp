@@ -1,5 +1,6 @@
 #include "spoolflow/calibration/fits/actuator_uncertainty.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -28,7 +29,7 @@ void fit_uncertainty(sensor::ActuatorParameters<double>& actuator, const Solenoi
   const Eigen::VectorXd parts = solve_nonnegative(equations);
   actuator.force_uncertainty_N = std::hypot(actuator.force_uncertainty_N, std::sqrt(parts(0)));
   actuator.current_uncertainty_A = std::sqrt(parts(1));
-  actuator.eddy_uncertainty = std::sqrt(parts(2));
+  actuator.eddy_uncertainty = std::min(std::sqrt(parts(2)), sensor::largest_eddy_uncertainty);
 }
 
 }  // namespace spoolflow::calibration
