@@ -71,6 +71,19 @@ void describe_pressure_constants(Visitor& visitor) {
                    sensor::most_deviation_share);
 }
 
+/// Of a current that the coil cannot have had.
+template <class Visitor>
+void describe_current_guard_constants(Visitor& visitor) {
+  visitor.constant({.name = "questioned_change_share",
+                    .unit = "1",
+                    .meaning = "share of the fastest change of the current from which one is looked at"},
+                   sensor::questioned_change_share);
+  visitor.constant({.name = "longest_voltage_mean_s",
+                    .unit = "s",
+                    .meaning = "samples further apart have no voltage that is believed to be a mean"},
+                   sensor::longest_voltage_mean_s);
+}
+
 /// Of the update by an innovation, while the spool slides or breaks away.
 template <class Visitor>
 void describe_innovation_constants(Visitor& visitor) {
@@ -267,6 +280,7 @@ void describe_constants(Visitor&& visitor) {
   describe_friction_constants(visitor);
   describe_pressure_constants(visitor);
   describe_innovation_constants(visitor);
+  describe_current_guard_constants(visitor);
   describe_process_noise_constants(visitor);
   describe_band_constants(visitor);
   describe_held_constants(visitor);

@@ -8,6 +8,10 @@
 
 namespace spoolflow::model {
 
+/// What a model may hold as the growth of the magnetising current's uncertainty per eddy current. Where eddy currents
+/// are small, what else is wrong in fast changes is many times them.
+inline constexpr double largest_eddy_uncertainty = 1e3;
+
 /// As describe_condensed, and visitor.list(Parameter, array).
 template <class Coil, class Visitor>
 void describe_coil(Coil& coil, Visitor& visitor) {
@@ -116,7 +120,7 @@ void describe_actuator(Actuator& actuator, Visitor& visitor) {
                  actuator.current_uncertainty_A);
   visitor.number({.key = "eddy_current_uncertainty",
                   .unit = "1",
-                  .limits = {0, sensor::largest_eddy_uncertainty},
+                  .limits = {0, largest_eddy_uncertainty},
                   .meaning = "its growth per eddy current"},
                  actuator.eddy_uncertainty);
 }

@@ -19,6 +19,8 @@ using recording::Recording;
 struct Sides {
   double lowest = 0, highest = 0;
   bool both = false;  ///< of zero, each for a share of the blocks
+
+  [[nodiscard]] double largest() const { return std::max(-lowest, highest); }
 };
 Sides sides_of(const std::vector<double>& values) {
   Sides out;
@@ -26,7 +28,7 @@ Sides sides_of(const std::vector<double>& values) {
     out.lowest = std::fmin(out.lowest, value);
     out.highest = std::fmax(out.highest, value);
   }
-  const double least = signed_current_share * std::max(-out.lowest, out.highest);
+  const double least = signed_current_share * out.largest();
   double above = 0, below = 0;
   for (const double value : values) {
     above += value > least;
@@ -75,9 +77,11 @@ std::string signed_coil_currents(const Recording& means) {
         recording::name(channel_a), recording::name(channel_b), negative ? "are each other's negative" : "go together",
         together, of_a.lowest, of_a.highest, channel_a == Channel::current_a ? "A" : "V");
   }
-  for (const Channel channel : {Channel::current_a, Channel::current_b}) {
-    const Sides sides = sides_of(slow.column(channel));
-    if (!sides.both) continue;
+  const Sides of_a = sides_of(slow.column(Channel::current_a)), of_b = sides_of(slow.column(Channel::current_b));
+  // A coil that stays off has noise on both sides of zero.
+  const double least_A = signed_current_share * std::max(of_a.largest(), of_b.largest());
+  for (const auto& [channel, sides] : {std::pair{Channel::current_a, of_a}, std::pair{Channel::current_b, of_b}}) {
+    if (!sides.both || sides.largest() < least_A) continue;
     return fmt::format(
         "{} goes from {:.3g} to {:.3g} A, and a coil's current has one direction: a signed current of both coils "
         "stands in "

@@ -51,10 +51,6 @@ struct ActuatorEstimate {
 static_assert(std::is_trivially_copyable_v<ActuatorParameters<float>>);
 static_assert(std::is_trivially_copyable_v<ActuatorState<float>>);
 
-/// What a model may hold as the growth of the magnetising current's uncertainty per eddy current. Where eddy currents
-/// are small, what else is wrong in fast changes is many times them.
-inline constexpr double largest_eddy_uncertainty = 1e3;
-
 /// Saturation may take so much of what the force rises by above the largest current of its map: one standard deviation.
 inline constexpr double saturation_share = 0.5;
 

@@ -5,7 +5,6 @@
 #include "spoolflow/sensor/basis/compiler.hpp"
 #include "spoolflow/sensor/basis/table.hpp"
 #include "spoolflow/sensor/magnetic_hysteresis.hpp"
-#include "spoolflow/sensor/signals/current_guard.hpp"
 
 namespace spoolflow::sensor {
 
@@ -132,33 +131,12 @@ SPOOLFLOW_INLINE constexpr void solve_current(const Coil<T>& coil, CoilState<T>&
   advance(coil.hysteresis, state.hysteresis, flux_Wb);
 }
 
-/// What may change a coil's current from one sample to the next.
+/// By how much a motion changes the current [A], in size, while the flux linkage stays: what the coil's equation
+/// u = R i + d flux/dt has of the spool's velocity.
 template <class T>
-struct CoilDrive {
-  T position_m;  ///< before
-  T travel_m;    ///< of the spool
-  T voltage_V;   ///< that resistance leaves for the flux, in size, the larger of both samples'; NaN: not known
-  T time_step_s;
-};
-
-/// A voltage is believed to be the mean over a sample where samples are no further apart [s].
-inline constexpr double longest_voltage_mean_s = 2.5e-3;
-/// The voltage may have driven the current by so many times what both samples' means say.
-inline constexpr double driven_factor = 1.5;
-
-/// By how much the current may have changed [A], in size, beside eddy currents, as the coil's equation u = R i + d
-/// flux/dt says: what motion makes of it while the flux linkage stays, and what the voltage drives, at most
-/// `fastest_A`.
-template <class T>
-SPOOLFLOW_NOINLINE constexpr T possible_change_A(const Coil<T>& coil, const CurrentStep<T>& current,
-                                                 const CoilDrive<T>& drive, T fastest_A) {
-  const MapPoint<T> before = coil.flux_linkage.map.at(current.before_A, drive.position_m);
-  const MapPoint<T> now = coil.flux_linkage.map.at(current.now_A, drive.position_m);
-  const T moved_A = at_least_zero(magnitude(before.column_slope * drive.travel_m) / before.row_slope);
-  const T driven_A = T(driven_factor) * drive.voltage_V * drive.time_step_s *
-                     magnitude((current.now_A - current.before_A) / (now.value - before.value));
-  const bool known = drive.time_step_s < T(longest_voltage_mean_s) && driven_A < fastest_A;  // not of a missing voltage
-  return moved_A + (known ? driven_A : fastest_A);
+constexpr T moved_current_A(const Coil<T>& coil, T current_A, T position_m, T travel_m) {
+  const MapPoint<T> flux = coil.flux_linkage.map.at(current_A, position_m);
+  return at_least_zero(magnitude(flux.column_slope * travel_m) / flux.row_slope);
 }
 
 template <class T>

@@ -56,12 +56,25 @@ struct CoilResistanceState {
 
 static_assert(std::is_trivially_copyable_v<CoilResistanceState<float>>);
 
-/// What the calibrated resistance leaves of the voltage for the flux linkage [V], in size, at a current [A]: the larger
-/// of two samples' voltages; NaN where either has none.
+/// A voltage is believed to be the mean over a sample where samples are no further apart [s].
+inline constexpr double longest_voltage_mean_s = 2.5e-3;
+/// The voltage [V] that drives a coil at this current [A], of this sample and the one before.
 template <class T>
-constexpr T voltage_for_flux_V(const CoilResistance<T>& coil, T current_A, T one_V, T other_V) {
-  const T held_V = coil.resistance_Ohm * current_A;
-  return larger(magnitude(one_V - held_V), magnitude(other_V - held_V)) + T(0) * (one_V + other_V);
+struct CoilDrive {
+  T current_A;
+  T voltage_V;
+  T voltage_before_V;
+  T time_step_s;
+};
+
+/// The share of its fastest change by which the voltages of both samples may have driven the current, at most 1; 1
+/// where one is missing or not believed. What the calibrated resistance leaves of `largest_V`, driven the other way
+/// round, makes the fastest change, through the least inductance.
+template <class T>
+constexpr T driven_share(const CoilResistance<T>& coil, const CoilDrive<T>& drive, T largest_V, T largest_A) {
+  const T left_V = drive.voltage_V + drive.voltage_before_V - T(2) * coil.resistance_Ohm * drive.current_A;
+  const T share = magnitude(left_V / (largest_V + largest_A * coil.resistance_Ohm));
+  return share < T(1) && drive.time_step_s < T(longest_voltage_mean_s) ? share : T(1);  // 1 of a missing voltage
 }
 
 /// One sample, `time_step_s` long. A voltage that is NaN leaves it out.

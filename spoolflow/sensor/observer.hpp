@@ -76,21 +76,28 @@ constexpr QuietCoil<T> quiet_coil(const ObserverParameters<T>& valve) {
           T(quiet_voltage_share) * valve.largest_current_A * valve.actuator.coil_resistance.resistance_Ohm};
 }
 
+/// By how much the current may have changed since the last sample [A], in size, beside eddy currents: what the spool's
+/// travel from `position_m` makes of it, and what the voltages drive of the fastest change. A call of its own: seldom
+/// asked.
+template <class T>
+SPOOLFLOW_NOINLINE constexpr T possible_change_A(const ObserverParameters<T>& valve, const ObserverState<T>& state,
+                                                 const Sample<T>& sample, T position_m, T travel_m, T fastest_A) {
+  const ActuatorParameters<T>& actuator = valve.actuator;
+  const T last_A = state.position.coil.current_A;
+  const CoilDrive<T> drive{last_A, sample.voltage_V, state.position.coil.voltage_V, sample.time_step_s};
+  return fastest_A * driven_share(actuator.coil_resistance, drive, valve.largest_voltage_V, valve.largest_current_A) +
+         moved_current_A(actuator.coil, last_A, position_m, travel_m);
+}
+
 /// The sample, or that with the last credible current where its own leapt.
 template <class T>
 SPOOLFLOW_INLINE constexpr const Sample<T>& credible(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                                      const Sample<T>& measured) {
   const T last_A = state.position.coil.current_A;
-  const CurrentStep<T> current{last_A, measured.current_A};
-  const bool holds =
-      is_held(valve.current_limits, current, measured.time_step_s, state.held_currents, [&](T fastest_A) {
+  const bool holds = is_held(
+      valve.current_limits, {last_A, measured.current_A}, measured.time_step_s, state.held_currents, [&](T fastest_A) {
         const T last_m = state.position.last_m;
-        return possible_change_A(valve.actuator.coil, current,
-                                 {last_m, measured.position_m - last_m,
-                                  voltage_for_flux_V(valve.actuator.coil_resistance, last_A,
-                                                     state.position.coil.voltage_V, measured.voltage_V),
-                                  measured.time_step_s},
-                                 fastest_A);
+        return possible_change_A(valve, state, measured, last_m, measured.position_m - last_m, fastest_A);
       });
   state.held_currents = held_in_a_row(state.held_currents, holds);
   if (likely(!holds)) return measured;

@@ -66,7 +66,7 @@ class CortexM : public ::testing::TestWithParam<Core> {
 
 TEST_P(CortexM, ObserverAnswersAsTheHostOverAMinuteOfOperation) {
   const Replay observer = replay(model, Estimator::observer, minute, GetParam());
-  expect_fit_for_a_valve(observer, {1490, 9, 2600, 480});
+  expect_fit_for_a_valve(observer, {1490, 9, 2630, 480});
   expect_documented(GetParam(), "observer", observer);
   for (const Status status :
        {Status::closed, Status::spool_at_rest, Status::outside_force_map, Status::outside_temperature,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -121,6 +122,11 @@ TEST(ChannelFindings, NameOneSignedCurrentInTheColumnsOfBothCoilsOrOfOne) {
   ASSERT_TRUE(run.has(Channel::current_a) && run.has(Channel::current_b));
   EXPECT_THAT(all_texts(channel_findings({&run})), testing::IsEmpty());
   const std::vector<double> current_A = signed_current(run);
+  Recording one_way = run;
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise_A(0, 1e-3);
+  for (double& value_A : one_way.column(Channel::current_a)) value_A = noise_A(random);
+  EXPECT_THAT(all_texts(channel_findings({&one_way})), testing::IsEmpty());
   Recording both = run;
   both.column(Channel::current_a) = both.column(Channel::current_b) = current_A;
   EXPECT_THAT(all_texts(channel_findings({&both})),

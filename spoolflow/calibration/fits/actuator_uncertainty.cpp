@@ -5,6 +5,7 @@
 #include <map>
 
 #include "spoolflow/calibration/numerics/nonnegative_least_squares.hpp"
+#include "spoolflow/model/describe_observer.hpp"
 
 namespace spoolflow::calibration {
 
@@ -29,7 +30,7 @@ void fit_uncertainty(sensor::ActuatorParameters<double>& actuator, const Solenoi
   const Eigen::VectorXd parts = solve_nonnegative(equations);
   actuator.force_uncertainty_N = std::hypot(actuator.force_uncertainty_N, std::sqrt(parts(0)));
   actuator.current_uncertainty_A = std::sqrt(parts(1));
-  actuator.eddy_uncertainty = std::min(std::sqrt(parts(2)), sensor::largest_eddy_uncertainty);
+  actuator.eddy_uncertainty = std::min(std::sqrt(parts(2)), model::largest_eddy_uncertainty);
 }
 
 }  // namespace spoolflow::calibration

@@ -196,15 +196,11 @@ SPOOLFLOW_INLINE constexpr const WholeValveSample<T>& credible(const WholeValveP
   const T open_A = state.open.position.coil.current_A, idle_A = state.idle.current_A, step_s = measured.time_step_s;
   const T last_m = state.open.position.last_m;
   const Sample<T> own = sample_of(measured, opens_a);
-  const CurrentStep<T> current{open_A, own.current_A};
-  const bool holds_open = is_held(now.open.current_limits, current, step_s, state.open.held_currents, [&](T fastest_A) {
-    return possible_change_A(now.open.actuator.coil, current,
-                             {opens_a ? -last_m : last_m, measured.position_m - state.zero_m - last_m,
-                              voltage_for_flux_V(now.open.actuator.coil_resistance, open_A,
-                                                 state.open.position.coil.voltage_V, own.voltage_V),
-                              step_s},
-                             fastest_A);
-  });
+  const bool holds_open =
+      is_held(now.open.current_limits, {open_A, own.current_A}, step_s, state.open.held_currents, [&](T fastest_A) {
+        return possible_change_A(now.open, state.open, own, opens_a ? -last_m : last_m,
+                                 measured.position_m - state.zero_m - last_m, fastest_A);
+      });
   // Without current there is little flux that a motion could change; the voltage before is not kept.
   const bool holds_idle = is_held(now.idle.current_limits, {idle_A, sample_of(measured, !opens_a).current_A}, step_s,
                                   state.idle.held_currents, [](T fastest_A) { return fastest_A; });

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "spoolflow/model/describe_observer.hpp"
 #include "tests/sensor/closed_form_valve.hpp"
 
 namespace spoolflow::calibration {
@@ -37,7 +38,7 @@ TEST(ActuatorUncertainty, StaysWhatAModelHoldsHoweverSmallTheEddyCurrentsAre) {
     actuator.force_uncertainty_N = 0.1;
     fit_uncertainty(actuator, late_force(actuator));
     EXPECT_GE(actuator.eddy_uncertainty, 0);
-    EXPECT_LE(actuator.eddy_uncertainty, sensor::largest_eddy_uncertainty);
+    EXPECT_LE(actuator.eddy_uncertainty, model::largest_eddy_uncertainty);
     // What eddy currents do not explain is the force's or the current's.
     if (classical_A_per_V > 1e-8) continue;
     EXPECT_GT(std::hypot(actuator.force_uncertainty_N, actuator.current_uncertainty_A), 0.1);
