@@ -72,8 +72,9 @@ struct CoilDrive {
 /// round, makes the fastest change, through the least inductance.
 template <class T>
 constexpr T driven_share(const CoilResistance<T>& coil, const CoilDrive<T>& drive, T largest_V, T largest_A) {
-  const T left_V = drive.voltage_V + drive.voltage_before_V - T(2) * coil.resistance_Ohm * drive.current_A;
-  const T share = magnitude(left_V / (largest_V + largest_A * coil.resistance_Ohm));
+  const T held_V = coil.resistance_Ohm * drive.current_A;
+  const T left_V = magnitude(drive.voltage_V - held_V) + magnitude(drive.voltage_before_V - held_V);
+  const T share = left_V / (largest_V + largest_A * coil.resistance_Ohm);
   return share < T(1) && drive.time_step_s < T(longest_voltage_mean_s) ? share : T(1);  // 1 of a missing voltage
 }
 

@@ -130,6 +130,7 @@ TEST(CurrentGuard, RefusesALeapThatTheVoltageDidNotDriveThoughThisCoilCouldDoIt)
   EXPECT_TRUE(held(3.6, 3.8));
   EXPECT_FALSE(held(3.6, 24));
   EXPECT_FALSE(held(24, 3.8));
+  EXPECT_FALSE(held(24, -24));
   EXPECT_FALSE(held(3.6, std::nan("")));
   EXPECT_FALSE(held(std::nan(""), 3.6));
   EXPECT_FALSE(held(3.6, 3.8, 3e-3));  // what a slow recorder calls the voltage is seldom its mean
