@@ -80,7 +80,7 @@ void describe_current_guard_constants(Visitor& visitor) {
                    sensor::questioned_change_share);
   visitor.constant({.name = "longest_voltage_mean_s",
                     .unit = "s",
-                    .meaning = "samples further apart have no voltage that is believed to be a mean"},
+                    .meaning = "the voltage of samples further apart does not count as their mean"},
                    sensor::longest_voltage_mean_s);
 }
 

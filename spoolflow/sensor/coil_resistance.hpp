@@ -56,7 +56,7 @@ struct CoilResistanceState {
 
 static_assert(std::is_trivially_copyable_v<CoilResistanceState<float>>);
 
-/// A voltage is believed to be the mean over a sample where samples are no further apart [s].
+/// A voltage counts as the mean over a sample where samples are no further apart [s].
 inline constexpr double longest_voltage_mean_s = 2.5e-3;
 /// The voltage [V] that drives a coil at this current [A], of this sample and the one before.
 template <class T>
@@ -68,8 +68,8 @@ struct CoilDrive {
 };
 
 /// The share of its fastest change by which the voltages of both samples may have driven the current, at most 1; 1
-/// where one is missing or not believed. What the calibrated resistance leaves of `largest_V`, driven the other way
-/// round, makes the fastest change, through the least inductance.
+/// where one is missing or none of them counts as a mean. What the calibrated resistance leaves of `largest_V`, driven
+/// the other way round, makes the fastest change, through the least inductance.
 template <class T>
 constexpr T driven_share(const CoilResistance<T>& coil, const CoilDrive<T>& drive, T largest_V, T largest_A) {
   const T held_V = coil.resistance_Ohm * drive.current_A;

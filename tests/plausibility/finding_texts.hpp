@@ -23,16 +23,16 @@ inline void freeze_half(std::vector<double>& values, double from) {
   for (std::size_t k = begin; k < values.size() && k < begin + values.size() / 2; ++k) values[k] = value;
 }
 
-/// The reference comes so much later beside the other channels of a run at even time steps; what lacks then repeats its
-/// end.
-inline void shift_by(recording::Recording& run, double late_s) {
+/// A channel comes so much later beside the others of a run at even time steps; what lacks then repeats its end.
+inline void shift_by(recording::Recording& run, double late_s,
+                     recording::Channel channel = recording::Channel::flow_reference) {
   const std::vector<double>& time_s = run.column(recording::Channel::time);
   const auto last = static_cast<std::ptrdiff_t>(run.size()) - 1;
   const std::ptrdiff_t rows = std::lround(late_s / (time_s[1] - time_s[0]));
-  std::vector<double>& reference = run.column(recording::Channel::flow_reference);
-  const std::vector<double> sound = reference;
+  std::vector<double>& shifted = run.column(channel);
+  const std::vector<double> sound = shifted;
   for (std::ptrdiff_t k = 0; k <= last; ++k)
-    reference[static_cast<std::size_t>(k)] =
+    shifted[static_cast<std::size_t>(k)] =
         sound[static_cast<std::size_t>(std::clamp(k - rows, std::ptrdiff_t{0}, last))];
 }
 

@@ -2,6 +2,7 @@
 /// signals that stand at an end by themselves, nothing is said.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <string>
 #include <utility>
@@ -85,17 +86,9 @@ TEST(ClippedChannel, IsNoneThatStandsAtItsEndByItself) {
   }
 }
 
-/// The position comes so much later beside the other channels; what lacks then repeats its end.
-Recording position_late(const Recording& run, double late_s) {
-  Recording out = run;
-  const std::vector<double>& sound = run.column(Channel::position);
-  const std::vector<double>& time_s = run.column(Channel::time);
-  const auto last = static_cast<std::ptrdiff_t>(run.size()) - 1;
-  const std::ptrdiff_t rows = std::lround(late_s / (time_s[1] - time_s[0]));
-  for (std::ptrdiff_t k = 0; k <= last; ++k)
-    out.column(Channel::position)[static_cast<std::size_t>(k)] =
-        sound[static_cast<std::size_t>(std::clamp(k - rows, std::ptrdiff_t{0}, last))];
-  return out;
+Recording position_late(Recording run, double late_s) {
+  shift_by(run, late_s, Channel::position);
+  return run;
 }
 std::optional<double> delay_of(const Recording& run) {
   MotionDelay delay;
