@@ -16,8 +16,8 @@
 #include "spoolflow/apps/terminal/output_file.hpp"
 #include "spoolflow/apps/terminal/suggestion.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
+#include "spoolflow/apps/work/band_notes.hpp"
 #include "spoolflow/apps/work/reading_notes.hpp"
-#include "spoolflow/apps/work/type_note.hpp"
 #include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/recording/open_table.hpp"
 #include "spoolflow/report/json/estimate_json.hpp"
@@ -87,6 +87,9 @@ void report(const std::vector<validation::EstimateSummary>& summaries, const Est
     for (const std::string& doubt : summary.doubts) say("spoolflow: doubt: {}\n", doubt);
     sound = sound && summary.doubts.empty() && summary.with_fault == 0;
   }
+  const bool declared = !arguments.environment.empty() || task.estimator == estimation::Estimator::condensed;
+  if (const std::string note = bench_note(task.model); !note.empty() && !declared && !arguments.quiet)
+    say("{}\n", note);
   if (arguments.strict && !sound)
     throw std::runtime_error(
         "the estimate is written, but it has faults, or the recording has plausibility findings (--strict)");

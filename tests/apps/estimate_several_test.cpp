@@ -51,6 +51,16 @@ TEST_F(EstimateSeveral, AnswersAsEachAloneWould) {
   }
 }
 
+TEST_F(EstimateSeveral, SaysOnceThatABandOfBenchConditionsKnowsNothingOfAMachine) {
+  const auto note = HasSubstr("--environment machine");
+  const Answer answer = run("estimate " + model + " run0.csv run1.csv -o together");
+  ASSERT_EQ(answer.status, 0) << answer.message;
+  EXPECT_THAT(answer.message, note);
+  EXPECT_EQ(answer.message.find("--environment"), answer.message.rfind("--environment"));
+  for (const std::string declared : {"--environment machine", "--environment bench", "--estimator condensed", "-q"})
+    EXPECT_THAT(run("estimate " + model + " run0.csv -o alone.csv " + declared).message, Not(note)) << declared;
+}
+
 TEST_F(EstimateSeveral, FinishesTheOthersWhereOneIsDamaged) {
   write("run1.csv", "time_s,current_A,position_mm\n0,1,1\n0.001,one,1\n");
   const Answer answer = run("estimate " + model + " run0.csv run1.csv run2.csv -o together");
