@@ -101,6 +101,12 @@ SPOOLFLOW_INLINE constexpr T presliding_half_width_N(const FrictionParameters<T>
   return friction.contact_stiffness_N_per_m * (sensor.backlash_m + deadband_m);
 }
 
+/// How far the contacts give way elastically under what they held some milliseconds ago [m].
+template <class T>
+SPOOLFLOW_INLINE constexpr T elastic_m(const FrictionParameters<T>& friction, const FrictionState<T>& state) {
+  return magnitude(state.held_N) / larger(friction.contact_stiffness_N_per_m, T(1));
+}
+
 /// To be called before the first sample, with its position: how long the spool has been at rest is not known.
 template <class T>
 constexpr void begin(const FrictionParameters<T>& friction, FrictionState<T>& state, T position_m) {

@@ -62,10 +62,14 @@ struct MeteringEdge {
   [[nodiscard]] constexpr Cell<T> layer_at(T temperature) const {
     return locate<edge_temperatures>(temperature_K, temperature);
   }
-  [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(const Cell<T>& layer, T pressure_difference,
-                                                           T position) const {
-    const Cell<T> row = locate<edge_pressures>(pressure_difference_Pa, pressure_difference);
-    const Cell<T> column = locate<edge_positions>(position_m, position);
+  [[nodiscard]] constexpr Cell<T> row_at(T pressure_difference) const {
+    return locate<edge_pressures>(pressure_difference_Pa, pressure_difference);
+  }
+  [[nodiscard]] constexpr Cell<T> column_at(T position) const { return locate<edge_positions>(position_m, position); }
+
+  /// In the cells that hold its oil temperature, pressure difference and position.
+  [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(const Cell<T>& layer, const Cell<T>& row,
+                                                           const Cell<T>& column, T pressure_difference) const {
     const VolumeCell<T> cell = volume_cell(layer, row, column, pressure_difference_Pa.per_spacing);
     VolumePoint<T> force = flow_force_N.at(cell), friction = friction_N.at(cell);
     if (unlikely(is_beyond(pressure_difference)))
@@ -79,7 +83,7 @@ struct MeteringEdge {
             layer.inside};
   }
   [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(T temperature, T pressure_difference, T position) const {
-    return at(layer_at(temperature), pressure_difference, position);
+    return at(layer_at(temperature), row_at(pressure_difference), column_at(position), pressure_difference);
   }
 };
 

@@ -311,8 +311,9 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
   const Sample<T>& sample = begins ? measured : detail::credible(valve, state, measured);
   if (begins) detail::begin(valve, state, sample);
   const Dither<T> dither = follow_dither(state.dither, sample.current_A, valve.largest_current_A, sample.time_step_s);
-  const PositionPoint<T> position = track(valve.position_sensor, state.position, sample, detail::quiet_coil(valve),
-                                          state.oil.temperature_K, dither, state.swing.frees);
+  const PositionPoint<T> position =
+      track(valve.position_sensor, state.position, sample, detail::quiet_coil(valve), state.oil.temperature_K, dither,
+            state.swing.frees, [&] { return elastic_m(valve.friction, state.friction); });
   const Schedule<T> schedule = detail::schedule_of(position.block);
   follow_temperature(state.oil, sample.oil_temperature_K, schedule.oil_temperature);
   detail::observe(valve, state, sample, position, dither, schedule, T(0), begins);

@@ -26,7 +26,7 @@ class PositionTrack : public testing::TestWithParam<double> {
   /// The track over the signal of a course; `fault_m` adds to the signal. The coil's current shows no motion where
   /// it is steady, and the voltage with it where there is one.
   void follow(double duration_s, const Course& course, const Each& each, const Course& fault_m = nullptr,
-              const Course& voltage_V = nullptr, const Course& current_A = nullptr) const {
+              const Course& voltage_V = nullptr, const Course& current_A = nullptr, double elastic_m = 0) const {
     std::mt19937 generator(3);
     std::normal_distribution<double> noise_m(0, signal_of_lvdt.noise_m);
     PositionState<double> state{};
@@ -38,7 +38,8 @@ class PositionTrack : public testing::TestWithParam<double> {
       sample.position_m = course(time_s) + noise_m(generator) + (fault_m ? fault_m(time_s) : 0);
       sample.voltage_V = voltage_V ? voltage_V(time_s) : std::nan("");
       sample.current_A = current_A ? current_A(time_s) : 0;
-      each(time_s, track(signal_of_lvdt, state, sample, {.current_A = 0.01, .voltage_V = 0.2}, 313.0, {}, false));
+      each(time_s, track(signal_of_lvdt, state, sample, {.current_A = 0.01, .voltage_V = 0.2}, 313.0, {}, false,
+                         [&] { return elastic_m; }));
     }
   }
   [[nodiscard]] static double step_s() { return GetParam(); }
@@ -92,6 +93,25 @@ TEST_P(PositionTrack, FindsWhichWayTheSpoolSlidesWithinAFewBlocks) {
     EXPECT_EQ(wrong, 0) << speed_m_per_s;
     EXPECT_GT(opening + closing, 0.95 * samples) << speed_m_per_s;
   }
+}
+
+TEST_P(PositionTrack, TakesNoCreepThatContactsGiveElasticallyForSlidingHoweverFinelyItIsSampled) {
+  const double window_s = long_window_blocks * std::max(step_s(), block_length_s), elastic_m = 1.5e-6;
+  const auto share_sliding = [&](double speed_m_per_s, double contacts_give_m) {
+    int sliding = 0, samples = 0;
+    follow(
+        100 * window_s, [&](double time_s) { return speed_m_per_s * time_s; },
+        [&](double time_s, const PositionPoint<double>& point) {
+          if (time_s < 5 * window_s) return;
+          sliding += slides(point.motion) ? 1 : 0;
+          ++samples;
+        },
+        nullptr, nullptr, nullptr, contacts_give_m);
+    return static_cast<double>(sliding) / samples;
+  };
+  EXPECT_LT(share_sliding(0.7 * elastic_m / window_s, elastic_m), 0.05);
+  EXPECT_GT(share_sliding(0.7 * elastic_m / window_s, 0), step_s() < 1e-3 ? 0.9 : 0.2);  // noise hides it there
+  EXPECT_GT(share_sliding(2 * elastic_m / window_s, elastic_m), 0.95);
 }
 
 TEST_P(PositionTrack, FindsASlipWithItsDirectionAndLetsItSettle) {

@@ -13,8 +13,8 @@ void scheduled(double step_s, double duration_s, const Each& each) {
   PositionState<double> state{};
   begin(state, 1e-3);
   for (int k = 0; k * step_s < duration_s; ++k) {
-    const PositionPoint<double> point =
-        track(lvdt, state, Sample<double>{step_s, 1, 10, 1e-3, 313}, {}, 313.0, Dither<double>{}, false);
+    const PositionPoint<double> point = track(lvdt, state, Sample<double>{step_s, 1, 10, 1e-3, 313}, {}, 313.0,
+                                              Dither<double>{}, false, [] { return 0.0; });
     each(detail::schedule_of(point.block));
   }
 }

@@ -95,7 +95,7 @@ TrackedRun track_run(const recording::Recording& recording, double stroke_m, boo
   for (std::size_t k = 0; k < out.coil.size(); ++k) {
     const auto& sample = out.coil.samples[k];
     const auto dither = sensor::follow_dither(dither_state, sample.current_A, largest_A, sample.time_step_s);
-    const auto point = sensor::track(position_sensor, state, sample, coil, 0.0, dither, false);
+    const auto point = sensor::track(position_sensor, state, sample, coil, 0.0, dither, false, [] { return 0.0; });
     const bool evenly = sliding.worn(point);
     if (!passage.goes_on(k, out.coil.time_s[k], point.position_m)) {
       while (!out.passing.empty() && out.passing.back().sample > passage.went_on()) out.passing.pop_back();

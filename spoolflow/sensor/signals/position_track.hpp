@@ -62,9 +62,10 @@ SPOOLFLOW_INLINE constexpr void close_block(PositionState<T>& state) {
   state.samples = 0;
 }
 
-/// Opening or closing where the blocks travel evenly, else rest. `noise_m` is that of the difference of two blocks.
-template <class T>
-SPOOLFLOW_INLINE constexpr Motion even_motion(const PositionState<T>& state, T noise_m) {
+/// Opening or closing where the blocks travel evenly, else rest. `noise_m` is that of the difference of two blocks; a
+/// spool that creeps by no more than `elastic_m()` in a window rests, and its contacts give way.
+template <class T, class Elastic>
+SPOOLFLOW_INLINE constexpr Motion even_motion(const PositionState<T>& state, T noise_m, const Elastic& elastic_m) {
   Motion motion = Motion::rest;
   if (state.blocks > 3 * short_window_blocks) {
     motion =
@@ -72,7 +73,7 @@ SPOOLFLOW_INLINE constexpr Motion even_motion(const PositionState<T>& state, T n
   }
   if (motion == Motion::rest && state.blocks > 3 * long_window_blocks + 3) {
     motion = even_travel([&](int k) { return four_blocks(state, k * long_window_blocks); },
-                         T(long_window_deviations) * noise_m);
+                         larger(T(long_window_deviations) * noise_m, elastic_m()));
   }
   return motion;
 }
@@ -108,10 +109,11 @@ constexpr void follow_noise(const PositionSensor<T>& sensor, PositionNoise<T>& n
 }
 
 /// What the spool does, after each block.
-template <class T>
-SPOOLFLOW_INLINE constexpr void find_motion(const PositionSensor<T>& sensor, PositionState<T>& state) {
+template <class T, class Elastic>
+SPOOLFLOW_INLINE constexpr void find_motion(const PositionSensor<T>& sensor, PositionState<T>& state,
+                                            const Elastic& elastic_m) {
   const T noise_m = state.noise.times * sensor.noise_m * sqrt(T(2) * state.per_block_samples);
-  const Motion motion = even_motion(state, noise_m);
+  const Motion motion = even_motion(state, noise_m, elastic_m);
   const bool even = motion != Motion::rest;
   if (!even && state.blocks > short_window_blocks) {
     const T signed_travel_m = block(state, 0) - block(state, short_window_blocks);
@@ -209,11 +211,13 @@ constexpr void begin(PositionState<T>& state, T position_m) {
   state.motion = Motion::rest;
 }
 
-/// One sample.
-template <class T>
+/// One sample. `elastic_m()` >= 0 is how far the contacts give way under the friction that they hold, which is asked
+/// where the spool may creep.
+template <class T, class Elastic>
 SPOOLFLOW_INLINE constexpr PositionPoint<T> track(const PositionSensor<T>& sensor, PositionState<T>& state,
                                                   const Sample<T>& sample, const QuietCoil<T>& coil,
-                                                  T oil_temperature_K, const Dither<T>& dither, bool freed) {
+                                                  T oil_temperature_K, const Dither<T>& dither, bool freed,
+                                                  const Elastic& elastic_m) {
   const T time_step_s = sample.time_step_s;
   const bool follows_block = state.velocity_due;
   if (follows_block) detail::follow_velocity(sensor, state);
@@ -229,7 +233,7 @@ SPOOLFLOW_INLINE constexpr PositionPoint<T> track(const PositionSensor<T>& senso
   if (closed) {
     detail::follow_noise(sensor, state.noise, magnitude(state.step_m - step_before_m));
     detail::close_block(state);
-    detail::find_motion(sensor, state);
+    detail::find_motion(sensor, state, elastic_m);
   }
   const bool even = ((state.newest + state.samples) & 1) == 0;
   return {position_m,

@@ -278,9 +278,9 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
   const ObserverParameters<T>& before = sides(valve, state.opens_a).open;
   const Dither<T> dither =
       follow_dither(state.open.dither, own.current_A, before.largest_current_A, sample.time_step_s);
-  const PositionPoint<T> position =
-      track(position_sensor, state.open.position, signed_sample, detail::quiet_coil(before),
-            state.open.oil.temperature_K, dither, state.open.swing.frees);
+  const PositionPoint<T> position = track(
+      position_sensor, state.open.position, signed_sample, detail::quiet_coil(before), state.open.oil.temperature_K,
+      dither, state.open.swing.frees, [&] { return elastic_m(before.friction, state.open.friction); });
   Schedule<T> schedule = detail::schedule_of(position.block);
   follow_temperature(state.open.oil, own.oil_temperature_K, schedule.oil_temperature);
   const T from_centre_m = state.opens_a ? -position.position_m : position.position_m;
