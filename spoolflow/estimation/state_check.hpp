@@ -31,8 +31,11 @@ inline bool may_be_held(int samples) {
   return samples >= 0 && samples <= sensor::most_held_currents;
 }
 
+/// A voltage that is not measured is no number, and neither is that of a sample whose current was replaced: every
+/// sample writes the one, and nothing reads the other before the next such sample writes it.
 inline bool may_be_observer(sensor::ObserverState<double> state) {
-  if (std::isnan(state.position.coil.voltage_V)) state.position.coil.voltage_V = 0;  // nobody measures it
+  if (!std::isfinite(state.position.coil.voltage_V)) state.position.coil.voltage_V = 0;
+  state.held = {};
   return may_be_held(state.held_currents) && may_be_track(state.position) && may_be_answer(state.last) &&
          holds_numbers(state);
 }
