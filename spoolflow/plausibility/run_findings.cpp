@@ -29,10 +29,12 @@ namespace {
 using recording::Channel;
 using recording::Recording;
 
-/// Rows in which the spool stands open to one side (+1 or -1), in that side's signs, with that side's coil.
+/// Rows in which the spool stands open to one side (+1 or -1), in that side's signs, with that side's coil, or with the
+/// active one where that alone was recorded.
 Recording one_side(const Recording& run, int side) {
-  const Channel current = side > 0 ? Channel::current_b : Channel::current_a;
-  const Channel voltage = side > 0 ? Channel::voltage_b : Channel::voltage_a;
+  const bool active = !recording::has_both_coils(run);
+  const Channel current = active ? Channel::current : side > 0 ? Channel::current_b : Channel::current_a;
+  const Channel voltage = active ? Channel::voltage : side > 0 ? Channel::voltage_b : Channel::voltage_a;
   const std::array<std::pair<Channel, Channel>, 6> taken{
       {{Channel::time, Channel::time},
        {Channel::position, Channel::position},
@@ -56,7 +58,9 @@ Recording one_side(const Recording& run, int side) {
 class RunTrial {
  public:
   RunTrial(const std::vector<KnownValve>& valve, Recording means)
-      : run(std::move(means)), valve_(valve), both_(valve.size() > 1 && recording::has_both_coils(run)) {}
+      : run(std::move(means)),
+        valve_(valve),
+        both_(valve.size() > 1 && (recording::has_both_coils(run) || run.has(Channel::current))) {}
 
   [[nodiscard]] std::vector<Deviation> deviations() const {
     std::vector<Deviation> out;

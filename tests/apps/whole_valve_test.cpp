@@ -105,6 +105,12 @@ TEST_F(WholeValve, ReferencesSayTheirDirectionAndTheSpoolRestsInTheCentre) {
   expect_refused("recalibrate whole.json active.csv --references meter.toml -o moved.json", {"current_a is missing"});
 }
 
+TEST_F(WholeValve, OneCoilsCurrentBesideTheActiveOnesIsRefused) {
+  write("two.csv", "time_s,position_mm,current_a_A,current_A\n0,0.1,0.5,0.5\n0.001,0.1,0.5,0.5\n");
+  expect_refused("estimate whole.json two.csv -o estimate.csv",
+                 {"two.csv: \"current_a\" stands beside \"current\", which is the active coil's"});
+}
+
 TEST_F(WholeValve, WithoutAnyCoilCurrentIsRefused) {
   write("none.csv", "time_s,position_mm,current_a_A\n0,0.1,0.5\n0.001,0.1,0.5\n");
   expect_refused("estimate whole.json none.csv -o estimate.csv", {"none.csv", "current_a", "current_b"});

@@ -255,6 +255,21 @@ TEST(RunFindings, NameOneSignedCurrentInTheColumnsOfBothCoils) {
               testing::HasSubstr("run.csv: current_a and current_b go together"));
 }
 
+TEST(RunFindings, JudgeEachSideOfAWholeValveByTheActiveCoilsCurrentWhereThatAloneIsThere) {
+  const RigBenches& valve = sound_size_6();
+  const std::vector<KnownValve> whole{known_valve(valve.benches()), known_valve(valve.benches())};
+  recording::Recording run = both_sides(valve.recordings.at("ramp_60bar.csv"));
+  for (std::size_t k = 0; k < run.size(); ++k) {
+    const bool opens_a = run.column(Channel::position)[k] < 0;
+    run.column(Channel::current).push_back(run.column(opens_a ? Channel::current_a : Channel::current_b)[k]);
+  }
+  run.column(Channel::current_a).clear();
+  run.column(Channel::current_b).clear();
+  EXPECT_THAT(all_texts(run_findings(whole, means_of(run), "run.csv")), testing::IsEmpty());
+  for (double& current_A : run.column(Channel::current)) current_A *= 2;
+  EXPECT_THAT(all_texts(run_findings(whole, means_of(run), "run.csv")), testing::HasSubstr("current"));
+}
+
 TEST(RunFindings, NameAReferenceThatIsTwoSecondsLateOrEarlyAndNoneOfOneThatIsAsLateAsAMeter) {
   const RigBenches& valve = sound_size_6();
   const std::vector<KnownValve> one{known_valve(valve.benches())}, whole{one.front(), one.front()};

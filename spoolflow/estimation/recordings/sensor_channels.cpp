@@ -55,6 +55,13 @@ std::unique_ptr<recording::Reader> open_sensor_channels(std::unique_ptr<recordin
   const std::string file = input->name();
   std::unique_ptr<recording::Reader> reader = recording::open_reader(std::move(input), options);
   const bool both = reader->has(Channel::current_a) && reader->has(Channel::current_b);
+  for (const Channel alone : {Channel::current_a, Channel::current_b}) {
+    if (both || !reader->has(alone) || !reader->has(Channel::current)) continue;
+    throw recording::RecordingError(
+        fmt::format("{}: \"{}\" stands beside \"current\", which is the active coil's; give \"current_a\" and "
+                    "\"current_b\", or \"current\" alone, in a channel map",
+                    file, recording::name(alone)));
+  }
   if (!both && !reader->has(Channel::current)) {
     throw recording::RecordingError(fmt::format(
         "{}: the model is of a whole valve and needs the currents of both coils, \"current_a\" and \"current_b\", or "
