@@ -153,9 +153,28 @@ ValveSettings read_valve(const TomlTable& valve, Models& models) {
   ValveSettings out{id, models.read(beside(valve, valve.text("model"))), read_source(its)};
   if (const toml::node* channels = valve.table.get("channels")) {
     if (!channels->is_table()) throw SiteError(fmt::format("{}: channels must be a table", valve.place("channels")));
+    if (std::holds_alternative<UdpSettings>(out.source)) {
+      throw SiteError(
+          fmt::format("{}: '{}' has channels, and its source is udp, whose datagrams hold numbers in SI units in one "
+                      "order (docs/live.md); let the sender convert them, and take [valve.channels] away",
+                      valve.place("channels"), id));
+    }
     out.channels = recording::read_channels({*channels->as_table(), valve.file, "channels"});
   }
   return out;
+}
+
+/// What a named pipe holds reaches one reader alone. `valve_of`: those of the valves before.
+void check_pipe(const TomlTable& valve, const ValveSettings& settings,
+                std::map<std::filesystem::path, std::string>& valve_of) {
+  const auto* const pipe = std::get_if<PipeSettings>(&settings.source);
+  if (pipe == nullptr) return;
+  const auto [other, is_new] = valve_of.emplace(std::filesystem::weakly_canonical(pipe->path), settings.id);
+  if (is_new) return;
+  throw SiteError(fmt::format(
+      "{}: '{}' and '{}' read the same pipe {}, and each sample would reach one of them alone; give each a pipe of its "
+      "own",
+      valve.place("source"), other->second, settings.id, pipe->path.string()));
 }
 
 std::vector<std::string> texts(const TomlTable& table, std::string_view key) {
@@ -294,9 +313,12 @@ SiteSettings read_site(const std::filesystem::path& file) {
         fmt::format("{}: holds no valve; a site has tables [[valve]] with id, model and source", file.string()));
   }
   Models models;
+  std::map<std::filesystem::path, std::string> valve_of_pipe;
   for (const toml::node& valve : *valves) {
     if (!valve.is_table()) throw SiteError(fmt::format("{}: valve must be a table [[valve]]", file.string()));
-    site.valves.push_back(read_valve({*valve.as_table(), file, "[[valve]]"}, models));
+    const TomlTable table{*valve.as_table(), file, "[[valve]]"};
+    site.valves.push_back(read_valve(table, models));
+    check_pipe(table, site.valves.back(), valve_of_pipe);
   }
   give_topics(site, file);
   check(site, file);

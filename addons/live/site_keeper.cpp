@@ -111,7 +111,7 @@ void SiteKeeper::keep(const Instant& now, bool with_indicators) {
     if (trouble.empty()) outbox_->committed(all);
     outbox_->given_up(given_up, trouble.empty());
   }
-  report(trouble);
+  report(trouble, now.wall_ms);
   if (!outbox_ || !trouble.empty()) return;
   try {
     outbox_->forget_covered();
@@ -120,7 +120,7 @@ void SiteKeeper::keep(const Instant& now, bool with_indicators) {
 }
 
 /// A fault of the store, once at its beginning and once at its end.
-void SiteKeeper::report(const std::string& trouble) {
+void SiteKeeper::report(const std::string& trouble, std::int64_t now_ms) {
   const std::string before = view().trouble;
   if (!trouble.empty() && trouble != before) journal_.note(trouble);
   if (trouble.empty() && !before.empty()) {
@@ -128,6 +128,7 @@ void SiteKeeper::report(const std::string& trouble) {
   }
   const std::lock_guard lock(view_mutex_);
   view_.trouble = trouble;
+  if (trouble.empty()) view_.kept_ms = now_ms;
 }
 
 void SiteKeeper::retain() {

@@ -15,6 +15,7 @@ namespace spoolflow::live {
 /// How the store fares.
 struct StoreView {
   std::string trouble{};       ///< why nothing is kept at present; empty where it is, or where it need not be
+  std::int64_t kept_ms = 0;    ///< up to when all is kept, since 1970-01-01 UTC; 0: nothing is since the start
   std::string mended{};        ///< what was done last about a file that was deleted or damaged; empty: nothing
   std::int64_t mended_ms = 0;  ///< when, since 1970-01-01 UTC
   std::uint64_t mendings = 0;  ///< since the start: readers of the file open it again after each
@@ -45,7 +46,7 @@ class SiteKeeper {
   [[nodiscard]] std::vector<ValveCommit> commits(bool with_indicators) const;
   /// Returns why it is not kept; empty: it is.
   [[nodiscard]] std::string commit(const Instant& now, std::vector<ValveCommit>& commits);
-  void report(const std::string& trouble);
+  void report(const std::string& trouble, std::int64_t now_ms);
 
   const SiteSettings& site_;
   const Valves& valves_;

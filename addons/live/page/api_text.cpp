@@ -80,15 +80,14 @@ Json valve_of(const Engine& engine, std::size_t k) {
   const ValveView valve = engine.view(k);
   const SourceView source = engine.source(k);
   const bool known = std::isfinite(valve.time_s);
-  const auto flow = [&](double m3_per_s) {
-    return known ? rounded(m3_per_s * litre_per_minute_per_m3_per_s, 6) : Json(nullptr);
-  };
+  const auto answered = [&](double value, int digits) { return known ? rounded(value, digits) : Json(nullptr); };
+  const auto flow = [&](double m3_per_s) { return answered(m3_per_s * litre_per_minute_per_m3_per_s, 6); };
   return {{"id", valve.id},
           {"time_s", rounded(valve.time_s, 6)},
           {"flow_L_min", flow(valve.answer.flow_m3_per_s)},
           {"flow_lower_L_min", flow(valve.answer.flow_lower_m3_per_s)},
           {"flow_upper_L_min", flow(valve.answer.flow_upper_m3_per_s)},
-          {"pressure_difference_bar", rounded(valve.answer.pressure_difference_Pa / units::pascal_per_bar, 4)},
+          {"pressure_difference_bar", answered(valve.answer.pressure_difference_Pa / units::pascal_per_bar, 4)},
           {"rated_flow_L_min", rounded(valve.rated_flow_m3_per_s * litre_per_minute_per_m3_per_s, 6)},
           {"status", status_of(valve, source)},
           {"ne107", monitor::name(valve.condition)},

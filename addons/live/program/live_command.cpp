@@ -23,6 +23,7 @@
 #include "addons/live/page/plotjuggler.hpp"
 #include "addons/live/program/live_commands.hpp"
 #include "addons/live/sources/socket.hpp"
+#include "addons/live/valve/utc_text.hpp"
 #include "spoolflow/apps/addon_programs.hpp"
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/terminal/interruption.hpp"
@@ -87,6 +88,12 @@ void check_ports(const live::SiteSettings& site) {
   }
 }
 
+/// What an end loses whose last second could not be kept.
+std::string unkept_text(const live::StoreView& store) {
+  const std::string since = store.kept_ms == 0 ? "the start" : live::utc(store.kept_ms);
+  return fmt::format("ended; what came since {} could not be kept and is lost: {}", since, store.trouble);
+}
+
 void live_command(const LiveArguments& arguments) {
   live::SiteSettings site = arguments.site.empty() ? live::demo_site() : live::read_site(arguments.site);
   if (!arguments.listen.empty()) site.page.listen = live::read_address(arguments.listen, "--listen");
@@ -120,6 +127,8 @@ void live_command(const LiveArguments& arguments) {
     wait_for_the_end();
   }
   engine.stop();
+  const live::StoreView kept = engine.store_view();
+  if (!kept.trouble.empty()) throw std::runtime_error(unkept_text(kept));
   say("ended; {}\n", engine.site().store.empty() ? "nothing was kept" : "what came until now is kept");
 }
 

@@ -72,6 +72,21 @@ source = { kind = "rig", valve = "size_6", seed = 4, ageing = { friction_factor 
   EXPECT_EQ(site.valves[0].model.model, site.valves[4].model.model);  // one file, one model
 }
 
+TEST_F(SiteTest, APipeReachesOneValveAlone) {
+  const std::string other = "[[valve]]\nid = \"press_2\"\nmodel = \"m.json\"\n";
+  const std::string pipe = "source = { kind = \"pipe\", path = \"samples.fifo\" }\n";
+  EXPECT_THAT(refused(pipe + other + "source = { kind = \"pipe\", path = \"./samples.fifo\" }\n"),
+              HasSubstr("line 8: 'press_1' and 'press_2' read the same pipe"));
+  EXPECT_EQ(refused(pipe + other + "source = { kind = \"pipe\", path = \"others.fifo\" }\n"), "");
+}
+
+TEST_F(SiteTest, AChannelMapOfDatagramsHasNoUse) {
+  const std::string channels = "[valve.channels]\ncurrent = { column = \"I\", unit = \"mA\" }\n";
+  EXPECT_THAT(refused("source = { kind = \"udp\" }\n" + channels, "[sources]\nudp = \"127.0.0.1:7700\"\n"),
+              HasSubstr("'press_1' has channels, and its source is udp"));
+  EXPECT_EQ(refused("source = { kind = \"tcp\", listen = \"127.0.0.1:0\" }\n" + channels), "");
+}
+
 TEST_F(SiteTest, SaysWhatIsWrongAndWhatToDo) {
   EXPECT_THAT(refused(""), HasSubstr("valve 'press_1' needs a source"));
   EXPECT_THAT(refused("source = { kind = \"upd\" }"),

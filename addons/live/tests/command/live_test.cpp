@@ -4,7 +4,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <sys/resource.h>
 #include <unistd.h>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -32,6 +34,32 @@ TEST_F(Live, RunsUntilItIsEnded) {
     EXPECT_EQ(live.wait(), 0);
     EXPECT_THAT(live.message_line(), HasSubstr("what came until now is kept"));
   }
+}
+
+// Files that may not grow stand for the full disk.
+TEST_F(Live, EndsOnAFullDiskWithStatus1AndSaysSinceWhenNothingIsKept) {
+  write_site("{ kind = \"rig\", seed = 1 }");
+  const std::vector<std::string> command{"live", "site.toml", "--store", "s.sqlite"};
+  {
+    RunningCommand live(folder, command);
+    EXPECT_THAT(live.message_line(), StartsWith("1 valve; page at"));
+    live.signal(SIGTERM);
+    EXPECT_EQ(live.wait(), 0);
+  }
+  const auto before = ::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  ::getrlimit(RLIMIT_FSIZE, &limit);
+  const rlimit no_more{40000, limit.rlim_max};
+  ::setrlimit(RLIMIT_FSIZE, &no_more);
+  RunningCommand live(folder, command);
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+  ::signal(SIGXFSZ, before);
+  EXPECT_THAT(live.message_line(), StartsWith("1 valve; page at"));
+  EXPECT_THAT(live.message_line(), HasSubstr("/s.sqlite: "));
+  live.signal(SIGTERM);
+  EXPECT_EQ(live.wait(), 1);
+  EXPECT_THAT(live.message_line(), AllOf(HasSubstr("ended; what came since 20"),
+                                         HasSubstr("could not be kept and is lost: "), HasSubstr("/s.sqlite: ")));
 }
 
 TEST_F(Live, HistoryIsWhatCame) {
