@@ -84,9 +84,7 @@ RunningSensor::answer(const sensor::Sample<double>& sample, const TimedSample& m
     return sensor::step(sensor::WholeCondensedTables<double>{condensed_.get(), condensed_a_.get()},
                         state_.whole_condensed, whole_valve_sample(sample, measured));
   }
-  sensor::step(*condensed_, state_.condensed, sample);
-  sensor::admit_other_direction(*condensed_, sample.position_m, state_.condensed.last);
-  return state_.condensed.last;
+  return sensor::step(*condensed_, state_.condensed, sample);
 }
 
 }  // namespace spoolflow::estimation

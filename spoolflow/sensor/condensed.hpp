@@ -27,15 +27,27 @@ struct CondensedPoint {
   Status status;
 };
 
+/// Whether the spool opens the other direction of flow, of which a model of one direction knows nothing.
+template <class T>
+constexpr bool opens_other_direction(const CondensedTables<T>& valve, T position_m) {
+  const T least_cells = T(0.5) * valve.closed_below_cells + T(other_direction_m) * valve.cells_per_m;
+  return position_m * valve.cells_per_m < -least_cells;
+}
+
+/// False where there is none: a value is missing, or, as the status says, the spool opens the other direction.
 template <class T>
 [[nodiscard]] constexpr bool find_point(const CondensedTables<T>& valve, const Sample<T>& sample,
                                         CondensedPoint<T>& point) {
   using Layout = CondensedLayout;
   constexpr Status beyond = Status::outside_force_map;
   point.status = {};
-  return find_place<Layout::position_cells>(valve.cells_per_m, sample.position_m, beyond, point.position,
-                                            point.status) &&
-         find_place<Layout::current_cells>(valve.cells_per_A, sample.current_A, beyond, point.current, point.status) &&
+  if (!find_place<Layout::position_cells>(valve.cells_per_m, sample.position_m, beyond, point.position, point.status))
+    return false;
+  if (point.status != Status::none && opens_other_direction(valve, sample.position_m)) {
+    point.status |= Status::other_direction;
+    return false;
+  }
+  return find_place<Layout::current_cells>(valve.cells_per_A, sample.current_A, beyond, point.current, point.status) &&
          within(sample.time_step_s, T(endless_step_s));
 }
 
@@ -73,6 +85,16 @@ constexpr T largest_flow(const CondensedTables<T>& valve, T position_m) {
   return flow + place.cells * flow_rise + T(Layout::root_cells) * (flow_more + place.cells * flow_more_rise);
 }
 
+/// In the other direction flows between nothing and what may flow at the same opening through the own edge.
+template <class T>
+SPOOLFLOW_NOINLINE constexpr void answer_other_direction(const CondensedTables<T>& valve, const Sample<T>& sample,
+                                                         Estimate<T>& out) {
+  out.flow_m3_per_s = T(0);
+  out.flow_lower_m3_per_s = -at_least_zero(largest_flow(valve, -sample.position_m)) - valve.flow_residual_m3_per_s;
+  out.flow_upper_m3_per_s = valve.flow_residual_m3_per_s;
+  out.status = Status::other_direction | Status::closed | Status::outside_force_map | unusable(sample);
+}
+
 }  // namespace detail
 
 /// A sample that cannot be used: the last flow is held, and its band opens to all that may flow, at the position that
@@ -92,14 +114,20 @@ SPOOLFLOW_NOINLINE constexpr void hold(const CondensedTables<T>& valve, Condense
 
 /// One sample through the chain: magnetic force, spring, flow force, flow rate. Friction, hysteresis and inertia are
 /// left out (paper section 3) and stand in the band instead. Needs current and position, and a time that does not run
-/// backwards: otherwise the last flow is held. Other inputs are not read. The answer stays in the state.
+/// backwards: otherwise the last flow is held. Other inputs are not read. Where the spool opens the other direction the
+/// flow is zero with a band over all that may flow there, and pressure difference and forces are the last ones. The
+/// answer stays in the state.
 template <class T>
 constexpr const Estimate<T>& step(const CondensedTables<T>& valve, CondensedState<T>& state, const Sample<T>& sample) {
   using Layout = CondensedLayout;
   Estimate<T>& out = state.last;
   detail::CondensedPoint<T> point;
   if (unlikely(!detail::find_point(valve, sample, point))) {
-    hold(valve, state, sample);
+    if (has(point.status, Status::other_direction)) {
+      detail::answer_other_direction(valve, sample, out);
+    } else {
+      hold(valve, state, sample);
+    }
     return out;
   }
   const T x = point.position.cells;
@@ -141,19 +169,6 @@ constexpr const Estimate<T>& step(const CondensedTables<T>& valve, CondensedStat
   out.flow_force_N = flow_force_N;
   out.status = point.status;
   return out;
-}
-
-/// To be called after the step of a model of one direction, which knows nothing of the other: where the spool opens
-/// that, as much may flow there as through its own edge, and the status says so. Beside the step, whose few
-/// instructions it would add to, for those who have other means to know the sign of the position.
-template <class T>
-constexpr void admit_other_direction(const CondensedTables<T>& valve, T position_m, Estimate<T>& answer) {
-  const T beyond_cells = (-position_m - T(other_direction_m)) * valve.cells_per_m;
-  const bool opens = beyond_cells > T(0.5) * valve.closed_below_cells;
-  if (!opens) return;
-  answer.flow_lower_m3_per_s = opens ? smaller(answer.flow_lower_m3_per_s, -detail::largest_flow(valve, -position_m))
-                                     : answer.flow_lower_m3_per_s;
-  mark(answer.status, opens, Status::other_direction);
 }
 
 }  // namespace spoolflow::sensor

@@ -107,9 +107,9 @@ class Block:
 
 def samples():
     """Time [s], current [A], position [m]; None where missing. Over all of both axes and beyond them."""
-    for k in range(6000):
+    for k in range(7000):
         current = 1.5 * (1 - math.cos(k / 97))  # to 3 A
-        position = 1.3e-3 * (1 - math.cos(k / 611)) - 1e-5
+        position = 1.3e-3 * (1 - math.cos(k / 611)) - (1e-5 if k < 6000 else 2.7e-3)
         yield k * 1e-3, None if 3000 <= k < 3050 else current, None if 4000 <= k < 4600 else position
 
 
@@ -136,6 +136,7 @@ def main(spoolflow, model):
         values = block.values
         status = "|".join(name for name, here in (("closed", values["Closed"]), ("outside_force_map", values["OutsideForceMap"]),
                                                   ("outside_flow_force_map", values["OutsideFlowForceMap"]),
+                                                  ("other_direction", values["OtherDirection"]),
                                                   ("sample_missing", values["SampleMissing"]), ("time_fault", values["TimeFault"]))
                           if here)
         seen.add(status)
@@ -147,7 +148,8 @@ def main(spoolflow, model):
             held_elsewhere = missing and position is not None and name in ("FlowLower", "FlowUpper")  # opens further there
             good = abs(mine - theirs) < 2e-3 + 1e-4 * abs(theirs) or (held_elsewhere and abs(mine) >= abs(theirs) - 2e-3)
             assert good or math.isnan(theirs), (time_s, name, mine, theirs)
-    wanted = {"", "closed", "outside_force_map", "outside_flow_force_map", "sample_missing"}
+    wanted = {"", "closed", "outside_force_map", "outside_flow_force_map",
+              "closed|outside_force_map|other_direction", "sample_missing"}
     assert wanted <= seen, wanted - seen
 
 

@@ -1,5 +1,6 @@
 #include "spoolflow/sensor/condensed.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -56,15 +57,20 @@ TEST(Condensed, NamesTheOtherDirectionInsteadOfASilentZero) {
   const auto valve = laid_out(linear_valve());
   CondensedState<double> state;
   const auto answer = [&](double current_A, double position_m) {
-    step(valve, state, {1e-3, current_A, 12, position_m, 323});
-    admit_other_direction(valve, position_m, state.last);
-    return state.last;
+    return step(valve, state, {1e-3, current_A, 12, position_m, 323});
   };
   EXPECT_FALSE(has(answer(0, -0.02e-3).status, Status::other_direction));
   const double most = answer(3.2, 1.5e-3).flow_m3_per_s;
-  const Estimate<double> other = answer(0, -1.5e-3);
-  EXPECT_TRUE(has(other.status, Status::other_direction));
-  EXPECT_NEAR(other.flow_lower_m3_per_s, -most, 0.02 * most);
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  for (const double current_A : {0.0, 1.5, nothing}) {
+    const Estimate<double> other = answer(current_A, -1.5e-3);
+    EXPECT_TRUE(has(other.status, Status::other_direction));
+    EXPECT_EQ(has(other.status, Status::sample_missing), std::isnan(current_A));
+    EXPECT_EQ(other.flow_m3_per_s, 0);
+    EXPECT_NEAR(other.flow_lower_m3_per_s, -most, 0.02 * most);
+    EXPECT_NEAR(other.flow_upper_m3_per_s, 0, 0.02 * most);
+  }
+  EXPECT_FALSE(has(answer(0, -1e9).status, Status::other_direction)) << "no measurement";
 }
 
 TEST(Condensed, SaysClosedBelowTheOpening) {

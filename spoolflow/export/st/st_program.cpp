@@ -56,6 +56,7 @@ std::string st_program(const model::Model& model) {
                                            {"@FLOW_RESIDUAL@", real(tables->flow_residual_m3_per_s)},
                                            {"@STROKE_S@", real(static_cast<float>(sensor::unobserved_stroke_s))},
                                            {"@NOISE_CELLS@", real(static_cast<float>(sensor::noise_cells))},
+                                           {"@OTHER_DIRECTION_M@", real(static_cast<float>(sensor::other_direction_m))},
                                            {"@RECORD@", std::to_string(Layout::record)},
                                            {"@CURRENT_CELLS@", std::to_string(Layout::current_cells)},
                                            {"@LAST_CURRENT_CELL@", std::to_string(Layout::current_cells - 1)},
