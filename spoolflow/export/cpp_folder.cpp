@@ -96,12 +96,35 @@ std::string table_check(const model::Model& model) {
   return out + "\n";
 }
 
-/// `valve_model`, and in it a namespace of this model's own: where two exports meet in one program, the linker must not
-/// take the tables of one for the other's.
+/// Of the sensor's headers as a whole: another in each version that changed one of them.
+const std::string& headers_mark() {
+  static const std::string mark = [] {
+    std::string all;
+    for (const EmbeddedFile& header : sensor_headers()) all += header.bytes;
+    return model::sha256_of_text(all).substr(0, 8);
+  }();
+  return mark;
+}
+
+/// A header of the sensor in a namespace of its version's own: where exports of two versions meet in one program, the
+/// linker must not take the functions of one for the other's.
+std::string marked_header(std::string header) {
+  const auto replace = [&header](std::string_view text, const std::string& by) {
+    const std::size_t at = header.find(text);
+    if (at != std::string::npos) header.replace(at, text.size(), by);
+  };
+  replace("namespace spoolflow::sensor {\n",
+          fmt::format("namespace spoolflow::sensor {{ inline namespace of_{} {{\n", headers_mark()));
+  replace("}  // namespace spoolflow::sensor\n", "}}  // namespace spoolflow::sensor\n");
+  return header;
+}
+
+/// `valve_model`, and in it a namespace of this model's and version's own: where two exports meet in one program, the
+/// linker must not take the tables of one for the other's.
 std::string namespace_begin(const model::Model& model) {
   const std::string direction = model.whole() ? "" : "_" + in_an_identifier(model.valve.direction);
-  return fmt::format("namespace valve_model {{\ninline namespace of_{}{} {{\n\n", sha256_of_model(model).substr(0, 8),
-                     direction);
+  return fmt::format("namespace valve_model {{\ninline namespace of_{}{}_{} {{\n\n",
+                     sha256_of_model(model).substr(0, 8), direction, headers_mark());
 }
 constexpr std::string_view namespace_end = "}\n}  // namespace valve_model\n";
 
@@ -309,7 +332,7 @@ std::vector<ExportedFile> cpp_folder(const model::Model& model) {
   files.push_back({"cell_sums.hpp", exported_text("cell_sums.hpp")});
   files.push_back({std::string(cpp_model_name), model_header(model)});
   for (const EmbeddedFile& header : sensor_headers()) {
-    files.push_back({fmt::format("spoolflow/sensor/{}", header.name), std::string(header.bytes)});
+    files.push_back({fmt::format("spoolflow/sensor/{}", header.name), marked_header(std::string(header.bytes))});
   }
   files.push_back(record_of(files));
   return files;

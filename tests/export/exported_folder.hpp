@@ -19,6 +19,7 @@ class ExportedFolder {
   ExportedFolder(const ExportedFolder&) = delete;
   ExportedFolder& operator=(const ExportedFolder&) = delete;
 
+  [[nodiscard]] std::string path() const { return folder_.string(); }
   [[nodiscard]] std::string content(const std::string& name) const;
   void write(const std::string& name, const std::string& content) const;
   /// Runs a command of the shell in the folder; returns its exit status. What it says goes to standard error.
