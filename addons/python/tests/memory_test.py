@@ -148,6 +148,40 @@ class Tables(examples.InAFolder):
         np.testing.assert_allclose(examples.model().estimate(column.rename(columns={"time": "time_s"})).time_s, run["time_s"],
                                    atol=1e-9)
 
+    def test_with_a_column_of_instants_have_the_time(self):
+        import pandas
+
+        run, expected = head(), examples.model().estimate(head())
+        table = pandas.DataFrame(run).drop(columns="time_s")
+        for begin in (pandas.Timestamp("2026-11-26T10:00:00", tz="Europe/Vienna"), pandas.Timestamp("2026-11-26")):
+            instants = begin + pandas.to_timedelta(pandas.Series(run["time_s"]), unit="s")
+            for name in ("time", "timestamp"):
+                found = examples.model().estimate(table.assign(**{name: instants}))
+                np.testing.assert_allclose(found.time_s, run["time_s"], atol=1e-9)
+                np.testing.assert_allclose(found.flow_m3_per_s, expected.flow_m3_per_s, rtol=1e-6, atol=1e-12)
+
+    def test_one_after_the_other_go_on_from_the_first_ones_time(self):
+        import pandas
+
+        run = head()
+        table = pandas.DataFrame(run).drop(columns="time_s")
+        table = table.set_index(pandas.Timestamp("2026-11-26", tz="UTC") + pandas.to_timedelta(run["time_s"], unit="s"))
+        expected = examples.model().estimate(table)
+        sensor = examples.model().sensor()
+        for again in range(2):
+            pieces = [sensor.estimate(table[k:k + 700]) for k in range(0, len(table), 700)]
+            np.testing.assert_array_equal(np.concatenate([piece.flow_m3_per_s for piece in pieces]), expected.flow_m3_per_s)
+            np.testing.assert_array_equal(np.concatenate([piece.status for piece in pieces]), expected.status)
+            self.assertEqual(sensor.time_s, expected.time_s[-1])
+            sensor.reset()  # as new, its clock too
+
+    def test_with_a_column_twice_are_refused(self):
+        import pandas
+
+        table = examples.ramp()[:100].to_pandas()
+        with self.assertRaisesRegex(spoolflow.Error, "^column current_A stands twice; keep one of them"):
+            examples.model().estimate(pandas.concat([table, table[["current_A"]]], axis=1))
+
     def test_with_missing_values_of_pandas_have_missing_samples(self):
         import pandas
 
@@ -172,6 +206,9 @@ class Tables(examples.InAFolder):
         self.assertEqual(recording["flow_reference_m3_per_s"].attrs["units"], "m3/s")
         estimate = examples.model().estimate(recording)
         np.testing.assert_array_equal(estimate.flow_m3_per_s, examples.model().estimate(head()).flow_m3_per_s)
+        instants = np.datetime64("2026-11-26") + (1e9 * recording["time_s"].values).round().astype("timedelta64[ns]")
+        by_instants = examples.model().estimate(recording.rename(time_s="time").assign_coords(time=instants))
+        np.testing.assert_allclose(by_instants.flow_m3_per_s, estimate.flow_m3_per_s, rtol=1e-6, atol=1e-12)
         answers = estimate.to_xarray()
         self.assertEqual(answers["flow_L_min"].attrs["units"], "L/min")
         self.assertEqual(float(answers["flow_L_min"].sel(time_s=1.0)), float(estimate.flow_L_min[1000]))

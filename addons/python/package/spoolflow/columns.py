@@ -31,14 +31,36 @@ def _of_pandas(values: Any) -> Any:
     return values.to_numpy()
 
 
-def _seconds(array: NDArray[Any]) -> NDArray[Any]:
-    """Times in seconds; instants count from the first."""
-    missing = np.isnat(array)
-    since = array - array[~missing][:1] if array.dtype.kind == "M" and not missing.all() else array
-    if since.dtype.kind != "m":
-        return np.full(array.shape, np.nan)
-    out: NDArray[Any] = since.astype("timedelta64[ns]").astype(np.int64) / 1e9
-    out[missing] = np.nan
+class Clock:
+    """Counts instants in seconds from the first that it was given."""
+
+    def __init__(self) -> None:
+        self._first: Optional[NDArray[Any]] = None
+
+    def seconds(self, array: NDArray[Any]) -> NDArray[Any]:
+        """Of instants (datetime64) or of times since one (timedelta64), NaN where one is missing."""
+        missing = np.isnat(array)
+        since = array
+        if array.dtype.kind == "M":
+            if self._first is None and not missing.all():
+                self._first = array[~missing][:1].astype("datetime64[ns]")
+            if self._first is None:
+                return np.full(array.shape, np.nan)
+            since = array - self._first
+        out: NDArray[Any] = since.astype("timedelta64[ns]").astype(np.int64) / 1e9
+        out[missing] = np.nan
+        return out
+
+
+def in_seconds(columns: Mapping[str, Any], clock: Optional[Clock] = None) -> Dict[str, Any]:
+    """The columns, those of instants or of times since one in seconds, as their names then say: `time_s` of `time`."""
+    clock = Clock() if clock is None else clock
+    out: Dict[str, Any] = {}
+    for name, values in columns.items():
+        if getattr(getattr(values, "dtype", None), "kind", "") in ("m", "M"):
+            values = clock.seconds(_of_pandas(values) if hasattr(values, "isna") else np.asarray(values))
+            name = name if name.endswith("_s") or f"{name}_s" in columns else f"{name}_s"
+        out[name] = values
     return out
 
 
@@ -51,7 +73,7 @@ def array_of(name: str, values: Any) -> NDArray[Any]:
             values = _of_pandas(values)
         array = np.asarray(values)
         if array.dtype.kind in "mM":
-            array = _seconds(array)
+            array = Clock().seconds(array)
         if array.dtype.kind not in "fiub":
             if array.dtype.kind != "O":
                 raise TypeError
@@ -69,6 +91,11 @@ def of_one_coil_or_both(given: Mapping[str, Any], direction: str) -> Dict[str, A
     out = {name: value for name, value in given.items() if value is not None}
     coils = {name: out.pop(name, None) for name in ("current_a_A", "current_b_A", "voltage_a_V", "voltage_b_V")}
     if direction == "both":
+        alone = [name for name in ("current_a_A", "current_b_A") if coils[name] is not None]
+        if len(alone) == 1 and "current_A" in out:
+            raise _native.Error(
+                f"{alone[0]} is given beside current_A, which is the active coil's; give current_a_A and current_b_A, or "
+                "current_A alone")
         if coils["current_a_A"] is not None and coils["current_b_A"] is not None:
             out.pop("voltage_V", None)
             out.update(current_A=coils["current_b_A"], current_a_A=coils["current_a_A"])

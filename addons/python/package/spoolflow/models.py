@@ -9,7 +9,7 @@ from typing import Any, Dict, List, Mapping, Optional
 from numpy.typing import NDArray
 
 from . import _native
-from .columns import STEP_NAMES, of_one_coil_or_both
+from .columns import STEP_NAMES, Clock, of_one_coil_or_both
 from .environments import Environment, as_environment
 from .errors import naming_missing
 from .estimates import Answer, Estimate
@@ -31,6 +31,7 @@ class Sensor:
         self.estimator: str = model.estimators[-1] if estimator is None else estimator
         self.model = model
         self._sensor = _native.Sensor(model._kept, self.estimator)
+        self._clock = Clock()
 
     def step(self, *, time_s: float, position_m: float, current_A: Optional[float] = None,
              voltage_V: Optional[float] = None, oil_temperature_K: Optional[float] = None,
@@ -53,8 +54,9 @@ class Sensor:
         return Answer(float(time_s), answer)
 
     def estimate(self, run: Optional[Mapping[str, Any]] = None, **samples: Any) -> Estimate:
-        """The next samples, as `Model.estimate` takes them; goes on where the sensor is."""
-        return self._estimate(sample_columns(run, samples, self.model.direction), index_of(run))
+        """The next samples, as `Model.estimate` takes them; goes on where the sensor is. Instants count from the first that the
+        sensor was given."""
+        return self._estimate(sample_columns(run, samples, self.model.direction, self._clock), index_of(run))
 
     def _estimate(self, columns: Dict[str, NDArray[Any]], index: Any) -> Estimate:
         return Estimate(columns["time_s"], self._sensor.run(columns), index)
@@ -67,6 +69,7 @@ class Sensor:
     def reset(self) -> None:
         """As new."""
         self._sensor.reset()
+        self._clock = Clock()
 
     def __repr__(self) -> str:
         return f"<Sensor of {self.model.name}: {self.estimator}>"
@@ -178,12 +181,13 @@ class Model:
         estimator: "observer" (where the model has one) or "condensed".
         environment: what the machine leaves open, as of `in_environment`.
         columns: the same in other units, under any name that files may have: position_mm, current_mA, oil_temperature_C, ...
-            Such columns are read, and refused, as a file's. An index of instants or times is the time.
+            Such columns are read, and refused, as a file's. An index of instants or times is the time, and so is a column
+            `time` of them.
 
         NaN is a value that was not measured. Contiguous arrays of float64 are read where they are, without a copy; others
         (float32, slices with steps, lists, columns of pandas) are converted once. Raises Error where a column is missing,
-        is no row of numbers, has another length, or is in another unit by all its numbers (mm, mA, degC, ms), as recordings are
-        refused; single wild samples have a status.
+        is no row of numbers, has another length, or is in another unit by all its numbers (mm, mA, degC, ms, bar), or the time runs
+        backwards throughout, as recordings are refused; single wild samples have a status.
         """
         samples = {**locals(), **columns}
         for name in ("self", "run", "estimator", "environment", "columns"):

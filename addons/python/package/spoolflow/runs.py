@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _native
 from .channels import Channels, as_file
-from .columns import array_of
+from .columns import array_of, in_seconds
 from .files import PathLike
 from .recordings import Recording, read_recording
 
@@ -46,6 +46,10 @@ def columns_of(run: Any) -> Dict[str, Any]:
         raise _native.Error(
             f"a run is a file, a table or a mapping of columns, and this is a {type(run).__name__}; read a file by "
             "spoolflow.read_recording(path), or give time_s=..., current_A=..., position_m=...")
+    names = [str(name) for name in run.keys()]
+    twice = sorted({name for name in names if names.count(name) > 1})
+    if twice:
+        raise _native.Error(f"column {twice[0]} stands twice; keep one of them, or give the other another name")
     out = {str(name): run[name] for name in run.keys()}
     index = getattr(run, "index", None)
     if index is None or callable(index) or any(re.match(r"time($|[^a-z])", name, re.IGNORECASE) for name in out):
@@ -73,7 +77,8 @@ def as_recording(run: Any, channels: Optional[Channels] = None, *, stroke_m: Opt
                  name: str = "the run") -> Recording:
     """Columns in memory, read as those of a file: any unit, channel maps, the same refusals. `name` stands in them."""
     listed: List[Tuple[str, Any, int]] = []
-    for key, values in columns_of(run).items():
+    columns = columns_of(run)
+    for key, values in (in_seconds(columns) if channels is None else columns).items():
         numbers = _numbers(key, values)
         if numbers is None and not hasattr(values, "__len__"):
             continue  # a remark beside the columns

@@ -6,12 +6,14 @@ from typing import Any, Dict, Mapping, Optional
 from numpy.typing import NDArray
 
 from . import _native
-from .columns import SAMPLE_NAMES, array_of, of_one_coil_or_both
+from .columns import SAMPLE_NAMES, Clock, array_of, in_seconds, of_one_coil_or_both
 from .runs import as_recording, columns_of, is_path
 
 
-def sample_columns(run: Optional[Any], given: Mapping[str, Any], direction: str) -> Dict[str, NDArray[Any]]:
-    """By the compiled part's names, in SI. Columns with those names are taken as they are; others are read as a file's."""
+def sample_columns(run: Optional[Any], given: Mapping[str, Any], direction: str,
+                   clock: Optional[Clock] = None) -> Dict[str, NDArray[Any]]:
+    """By the compiled part's names, in SI. Columns with those names are taken as they are; others are read as a file's.
+    Instants are counted by the clock."""
     also = sorted(name for name, value in given.items() if value is not None)
     if run is not None:
         if also:
@@ -23,6 +25,7 @@ def sample_columns(run: Optional[Any], given: Mapping[str, Any], direction: str)
         given = columns_of(run)
     else:
         given = {name: given[name] for name in also}
+    given = in_seconds(given, clock)
     if any(name not in _native.columns for name in given):
         given = as_recording(given)
     wanted = {name: given[name] for name in SAMPLE_NAMES if name in given}
