@@ -27,6 +27,11 @@ bool in_range(double value, double lowest, double highest) {
   return value >= lowest && value <= highest;
 }
 
+bool is_port(Channel channel) {
+  return channel == Channel::pressure_p || channel == Channel::pressure_a || channel == Channel::pressure_b ||
+         channel == Channel::pressure_t;
+}
+
 }  // namespace
 
 Plausibility::Limits Plausibility::limits_of(Channel channel, std::optional<double> stroke_m) {
@@ -138,10 +143,14 @@ void Plausibility::take(std::size_t column, std::span<const double> values,
 }
 
 void Plausibility::finish() const {
+  const auto reaches = [](const Watched& watched) { return largest(watched) >= watched.limits.smallest; };
+  // The ports of a valve have one unit, and the return line or an idle port may stay below what a supply reaches.
+  const bool a_port_reaches = std::ranges::any_of(
+      watched_, [&](const Watched& watched) { return is_port(watched.column->channel) && reaches(watched); });
   for (const Watched& watched : watched_) {
     if (!watched.may_be_too_small || !(watched.lowest <= watched.highest)) continue;
+    if (reaches(watched) || (a_port_reaches && is_port(watched.column->channel))) continue;
     const double reached = largest(watched);
-    if (reached >= watched.limits.smallest) continue;
     // White noise of any length has a range of 7 to 10 mean steps and a mean that is far smaller than one step; a
     // signal moves by many steps of its noise, or stands clear of zero.
     const double mean_step = watched.steps / static_cast<double>(watched.samples);
@@ -164,8 +173,16 @@ void Plausibility::finish() const {
 /// By the median distance of the first block's time stamps.
 void Plausibility::check_sampling(const Watched& time, std::span<const double> time_s) const {
   std::vector<double> steps_s;
+  std::size_t backwards = 0;
   for (std::size_t k = 1; k < time_s.size(); ++k) {
     if (time_s[k] > time_s[k - 1]) steps_s.push_back(time_s[k] - time_s[k - 1]);
+    if (time_s[k] < time_s[k - 1]) ++backwards;
+  }
+  if (steps_s.empty() && backwards > 1) {
+    throw RecordingError(
+        fmt::format("{}, column '{}': the time runs backwards from sample to sample, from {:g} s on, and a sensor knows "
+                    "the past alone; give the samples in the order of time",
+                    file_, time.column->name, time_s.front()));
   }
   if (steps_s.size() < 2) return;
   const double apart_s = numerics::median(std::move(steps_s));

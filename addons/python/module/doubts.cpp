@@ -82,7 +82,8 @@ constexpr std::array<NamedColumn, column_names.size()> names_say{{
 }};
 
 /// Refuses arrays in another unit than their names say, with the words for recordings: mm for m, mA for A, degC for K,
-/// ms for s. Looks at a few thousand samples, as a wrong unit shows in all of them.
+/// ms for s, bar for Pa; and a time that runs backwards throughout. Looks at a few thousand samples, as a wrong unit
+/// shows in all of them.
 void check_units(const py::dict& arrays) {
   constexpr std::size_t most = 4096;
   const ColumnArrays given(arrays);
@@ -104,6 +105,7 @@ void check_units(const py::dict& arrays) {
     for (std::size_t at = 0; at < columns[k].size() && seen.size() < most; at += each) seen.push_back(columns[k][at]);
     plausibility.take(k, seen, [each](std::size_t row) { return fmt::format("the run, sample {}", row * each + 1); });
   }
+  plausibility.finish();
 }
 
 }  // namespace

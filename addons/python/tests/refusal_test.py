@@ -6,6 +6,7 @@ import numpy as np
 
 import examples
 import spoolflow
+from spoolflow import _native
 from spoolflow.columns import of_one_coil_or_both
 
 
@@ -24,6 +25,8 @@ class Coils(unittest.TestCase):
         self.assertEqual(self.columns("both", current_A=3, voltage_V=4), {**self.NEEDED, "current_A": 3, "voltage_V": 4})
         with self.assertRaisesRegex(spoolflow.Error, "the model is of a whole valve and needs the currents of both coils"):
             self.columns("both", current_a_A=3)
+        with self.assertRaisesRegex(spoolflow.Error, "^current_a_A is given beside current_A, which is the active coil's; give"):
+            self.columns("both", current_a_A=3, current_A=4)
 
     def test_of_one_direction_are_its_own(self):
         whole_run = {"current_a_A": 3, "current_b_A": 4, "voltage_a_V": 5, "voltage_b_V": 6, "pressure_p_Pa": 8}
@@ -92,9 +95,25 @@ class Refusal(examples.InAFolder):
         ):
             with self.assertRaisesRegex(spoolflow.Error, f"^the run,.*column '{name}': .*{words}"):
                 estimate(**{**columns, name: columns[name] * factor + offset})
+        with self.assertRaisesRegex(spoolflow.Error, "^the run, column 'time_s': the time runs backwards from sample to sample"):
+            estimate(**{name: column[::-1] for name, column in columns.items()})
         wild = dict(columns, position_m=columns["position_m"].copy())
         wild["position_m"][500] = 17  # a single one is the sensor's to judge
         self.assertTrue(estimate(**wild).status[500] & spoolflow.Status.position_fault)
+
+    def test_of_port_pressures_in_bar_has_the_words_for_recordings(self):
+        time = np.arange(2000) * 1e-3
+        ports = [f"pressure_{port}_Pa" for port in "pabt"]
+
+        def checked(*pressures):
+            _native.check_units({"time_s": time, "current_A": 0 * time, "position_m": 0 * time,
+                                 **{name: value + 0 * time for name, value in zip(ports, pressures)}})
+
+        checked(60e5, 30e5, 30e5, 2e3)  # a return line is nearly without pressure
+        checked(60e5, 0, 0, 0)
+        with self.assertRaisesRegex(spoolflow.Error, "^the run, column 'pressure_p_Pa': channel pressure_p carries a signal but "
+                                    "never exceeds 60 Pa .* is its unit bar or"):
+            checked(60, 30, 30, 0)
 
     def test_of_a_step_names_the_argument(self):
         sensor = examples.model().sensor()
