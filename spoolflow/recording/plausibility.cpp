@@ -179,10 +179,10 @@ void Plausibility::check_sampling(const Watched& time, std::span<const double> t
     if (time_s[k] < time_s[k - 1]) ++backwards;
   }
   if (steps_s.empty() && backwards > 1) {
-    throw RecordingError(
-        fmt::format("{}, column '{}': the time runs backwards from sample to sample, from {:g} s on, and a sensor knows "
-                    "the past alone; give the samples in the order of time",
-                    file_, time.column->name, time_s.front()));
+    throw RecordingError(fmt::format(
+        "{}, column '{}': the time runs backwards from sample to sample, from {:g} s on, and a sensor knows "
+        "the past alone; give the samples in the order of time",
+        file_, time.column->name, time_s.front()));
   }
   if (steps_s.size() < 2) return;
   const double apart_s = numerics::median(std::move(steps_s));

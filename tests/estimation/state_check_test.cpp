@@ -1,13 +1,11 @@
 /// Whatever a sensor went through, what it remembers afterwards is a state that it takes back.
 #include "spoolflow/estimation/state_check.hpp"
 
-#include <functional>
-#include <limits>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "tests/estimation/sample_faults.hpp"
 #include "tests/estimation/straight_valve.hpp"
 #include "tests/sensor/valve_course.hpp"
 
@@ -15,37 +13,6 @@ namespace spoolflow::estimation {
 namespace {
 
 constexpr double kept_every_s = 1e-3;
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
-struct KeptFault {
-  const char* name;
-  std::function<void(TimedSample&)> happens;  ///< to one sample
-};
-
-/// One of each kind that a sensor reports, and each channel as no number.
-const std::vector<KeptFault> kept_faults = {
-    {"current spike", [](TimedSample& s) { s.current_A += 1.5; }},
-    {"current spike of the other coil", [](TimedSample& s) { s.current_a_A += 1.5; }},
-    {"no current", [](TimedSample& s) { s.current_A = not_measured; }},
-    {"no current of the other coil", [](TimedSample& s) { s.current_a_A = infinite; }},
-    {"infinite current", [](TimedSample& s) { s.current_A = infinite; }},
-    {"no voltage", [](TimedSample& s) { s.voltage_V = not_measured; }},
-    {"infinite voltage", [](TimedSample& s) { s.voltage_V = -infinite; }},
-    {"no voltage of the other coil", [](TimedSample& s) { s.voltage_a_V = not_measured; }},
-    {"no position", [](TimedSample& s) { s.position_m = not_measured; }},
-    {"infinite position", [](TimedSample& s) { s.position_m = infinite; }},
-    {"no oil temperature", [](TimedSample& s) { s.oil_temperature_K = not_measured; }},
-    {"no time", [](TimedSample& s) { s.time_s = not_measured; }},
-    {"position jump", [](TimedSample& s) { s.position_m += 0.8e-3; }},
-    {"position of the other direction", [](TimedSample& s) { s.position_m -= 1.5e-3; }},
-    {"time stands", [](TimedSample& s) { s.time_s -= kept_every_s; }},
-    {"time runs backwards", [](TimedSample& s) { s.time_s -= 1; }},
-    {"leap of time", [](TimedSample& s) { s.time_s += 3600; }},
-    {"coil fault", [](TimedSample& s) { s.current_A = 20; }},
-    {"coil fault of the other coil", [](TimedSample& s) { s.current_a_A = -20; }},
-    {"coil voltage fault", [](TimedSample& s) { s.voltage_V = 400; }},
-    {"temperature fault", [](TimedSample& s) { s.oil_temperature_K = 800; }},
-};
 
 /// Opens, and goes back; of a whole valve with a silent other coil.
 std::vector<TimedSample> kept_run(bool whole) {
@@ -65,7 +32,7 @@ std::vector<TimedSample> kept_run(bool whole) {
 void expect_kept_every_state_taken_back(const char* sensor, const RunningSensor::Parameters& parameters, bool whole) {
   const std::vector<TimedSample> run = kept_run(whole);
   const std::size_t begins = run.size() / 3;
-  for (const KeptFault& fault : kept_faults) {
+  for (const SampleFault& fault : sample_faults) {
     for (const std::size_t lasts : {1U, 100U}) {
       RunningSensor running(parameters, 1e-3);
       std::size_t refused = 0;

@@ -70,6 +70,8 @@ try:
         valve = json.loads(asked("/api/v1/valves/a")[1])
         assert valve["id"] == "a"
         assert set(valve) == set(schemas["Valve"]["properties"]), set(valve) ^ set(schemas["Valve"]["properties"])
+        silent = json.loads(asked("/api/v1/valves/b")[1])  # nothing is known of it
+        assert silent["flow_L_min"] is None and silent["pressure_difference_bar"] is None, silent
         for one in valve["indicators"]:
             assert set(one) == set(schemas["Indicator"]["properties"]), one
         limits = {one["name"]: (one["alarm_below"], one["alarm_above"], one["baseline"]) for one in valve["indicators"]}
