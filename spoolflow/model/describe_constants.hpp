@@ -50,6 +50,11 @@ void describe_friction_constants(Visitor& visitor) {
                    sensor::least_rest_s);
   visitor.constant({.name = "breakaway_delay_s", .unit = "s", .meaning = "delay of a break-away in the position"},
                    sensor::breakaway_delay_s);
+  visitor.constant({.name = "unknown_rest_s",
+                    .unit = "s",
+                    .meaning = "for so long after the first sample no break-away counts: how long the spool had rested "
+                               "is not known"},
+                   sensor::unknown_rest_s);
   visitor.constant({.name = "shortest_rest_s", .unit = "s", .meaning = "a spool breaks away only after so long a rest"},
                    sensor::shortest_rest_s);
 }

@@ -24,10 +24,6 @@ template <class Visitor>
 void describe_coil_constants(Visitor& visitor) {
   visitor.constant({.name = "shortest_step_s", .unit = "s", .meaning = "lower limit of the coil's time step"},
                    sensor::shortest_step_s);
-  visitor.constant({.name = "slow_magnetisation_s",
-                    .unit = "s",
-                    .meaning = "in which the coil is taken to have been brought to its first current"},
-                   sensor::slow_magnetisation_s);
   visitor.constant(
       {.name = "flux_rate_error_share",
        .unit = "1",
@@ -49,6 +45,10 @@ void describe_coil_constants(Visitor& visitor) {
                     .unit = "1",
                     .meaning = "largest resistance over the calibrated one that copper can have"},
                    sensor::warmest_resistance_ratio);
+  visitor.constant({.name = "resistance_current_share",
+                    .unit = "1",
+                    .meaning = "least mean current that says something of the resistance, as a share of the largest"},
+                   sensor::resistance_current_share);
   visitor.constant(
       {.name = "known_resistance_share",
        .unit = "1",

@@ -47,8 +47,6 @@ struct EddyCurrents {
 
 /// A step of time [s] is taken for no shorter: the flux rate divides by it.
 inline constexpr double shortest_step_s = 1e-6;
-/// The time [s] in which the coil is taken to have been brought to its first current: no eddy currents are left.
-inline constexpr double slow_magnetisation_s = 1e6;
 
 template <class T>
 struct Coil {
@@ -140,24 +138,22 @@ constexpr T moved_current_A(const Coil<T>& coil, T current_A, T position_m, T tr
 }
 
 template <class T>
-constexpr void demagnetise(CoilState<T>& state) {
-  demagnetise(state.hysteresis);
+constexpr void demagnetise(CoilState<T>& state, T flux_Wb) {
+  demagnetise(state.hysteresis, flux_Wb);
   state.static_current_A = T(0);
   state.time_constant_s = T(0);
 }
 
-/// Follows the coil current with the flux. The first sample begins: nothing is known of the coil's history, it is taken
-/// to have been demagnetised and then brought to this current slowly. Costs no more than any other step.
+/// Follows the coil current with the flux. The first sample begins: nothing is known of the coil's history, so that the
+/// iron is taken to lie in the middle of its loops, at rest. Costs no more than any other step.
 template <class T>
-SPOOLFLOW_INLINE constexpr void follow_current(const Coil<T>& coil, CoilState<T>& state, CoilStep<T> step,
+SPOOLFLOW_INLINE constexpr void follow_current(const Coil<T>& coil, CoilState<T>& state, const CoilStep<T>& step,
                                                const Cell<T>& position, bool begins) {
   const auto& flux_map = coil.flux_linkage.map;
   const T last_A = begins ? step.current_A : state.magnetising_current_A;
   const CoilGuess<T> guess{last_A, flux_map.at(locate<flux_map_currents>(flux_map.row_axis, last_A), position)};
-  if (begins) demagnetise(state);
-  if (begins) step.time_step_s = T(slow_magnetisation_s);
+  if (begins) demagnetise(state, guess.flux.value);
   solve_current(coil, state, step, guess, begins);
-  if (begins) state.flux_rate_V = T(0);
 }
 
 }  // namespace spoolflow::sensor

@@ -17,6 +17,9 @@ inline constexpr double warmest_resistance_ratio = 1.7;
 /// A voltage of more than this share of what holds the largest current, that no current answers: the line or the
 /// current's instrument is broken.
 inline constexpr double unanswered_voltage_share = 0.1;
+/// A mean current of less than this share of the largest says nothing of the resistance: it may be the zero of its
+/// instrument.
+inline constexpr double resistance_current_share = 0.02;
 /// How well the resistance must be known, as a share of it, before it is called implausible.
 inline constexpr double known_resistance_share = 0.1;
 
@@ -103,18 +106,27 @@ constexpr T take_up(CoilResistanceState<T>& state) {
   return since_s;
 }
 
-/// One step of the Kalman filter for all samples since its last one, `since_s` long: the resistance drifts for as long
-/// as they last, and they are so much evidence and no more, so that it does not matter that the next mean is much
-/// alike. Informative where current flows, whether steady or not; a coil whose resistance was never calibrated leaves
-/// the estimate alone.
+/// The samples that a mean has taken up.
 template <class T>
-constexpr void follow_resistance(const CoilResistance<T>& coil, CoilResistanceState<T>& state, T since_s) {
+struct CoilEvidence {
+  T since_s;  ///< how long they last
+  T least_A;  ///< mean current, in size, that says something
+};
+
+/// One step of the Kalman filter for all samples since its last one: the resistance drifts for as long as they last,
+/// and they are so much evidence and no more, so that it does not matter that the next mean is much alike. Informative
+/// where current flows, whether steady or not; a coil whose resistance was never calibrated leaves the estimate alone.
+template <class T>
+constexpr void follow_resistance(const CoilResistance<T>& coil, CoilResistanceState<T>& state,
+                                 const CoilEvidence<T>& evidence) {
+  const T since_s = evidence.since_s;
   if (coil.resistance_Ohm > T(0) && since_s > T(0)) {
     const CoilEquation<T>& mean = state.mean;
     const bool begins = is_zero(state.variance_Ohm2);
     if (begins) state.resistance_Ohm = coil.resistance_Ohm;
     if (begins) state.variance_Ohm2 = squared(coil.uncertainty_Ohm);
     state.variance_Ohm2 += squared(coil.drift_Ohm_per_root_s) * since_s;
+    if (!(magnitude(mean.current_A) > evidence.least_A)) return;
     const T misfit_V = mean.voltage_V - mean.flux_rate_V - state.resistance_Ohm * mean.current_A;
     const T covariance = state.variance_Ohm2 * mean.current_A;
     const T noise2 = squared(coil.voltage_noise_V_root_s) +

@@ -64,6 +64,8 @@ inline constexpr double sticking_limit_deviations = 2;
 inline constexpr double longest_rest_s = 500;
 /// The time at rest divides [s].
 inline constexpr double least_rest_s = 1e-9;
+/// For so long [s] after the first sample no break-away counts: how long the spool had rested before is not known.
+inline constexpr double unknown_rest_s = 1;
 /// A break-away shows in the position so much later [s]: the friction before it is what counts.
 inline constexpr double breakaway_delay_s = 0.004;
 
@@ -111,7 +113,8 @@ SPOOLFLOW_INLINE constexpr T elastic_m(const FrictionParameters<T>& friction, co
 template <class T>
 constexpr void begin(const FrictionParameters<T>& friction, FrictionState<T>& state, T position_m) {
   state.smooth_m = state.followed_m = position_m;
-  state.presliding_N = state.engaged_m = state.engagement = state.held_N = state.earlier_N = state.held_s = T(0);
+  state.presliding_N = state.engaged_m = state.engagement = state.held_N = state.earlier_N = T(0);
+  state.held_s = T(-unknown_rest_s);
   state.rest_s = friction.ageing_s;
 }
 

@@ -33,11 +33,25 @@ struct HysteresisState {
 
 static_assert(std::is_trivially_copyable_v<HysteresisState<float>>);
 
-/// As {} would; no block of memory is cleared, for which a compiler may want a library.
+namespace detail {
+
+/// Centres stop K and those after it at the flux: one store each.
+template <unsigned K, class T>
+SPOOLFLOW_INLINE constexpr void centre_stops(HysteresisState<T>& state, T flux) {
+  if constexpr (K < hysteresis_elements) {
+    state.centre[K] = flux;
+    centre_stops<K + 1>(state, flux);
+  }
+}
+
+}  // namespace detail
+
+/// Demagnetised about a flux: the middle of all that an unknown history may have left there. No block of memory is
+/// moved, for which a compiler may want a library.
 template <class T>
-constexpr void demagnetise(HysteresisState<T>& state) {
-  state.flux = T(0);
-  for (T& centre : state.centre) centre = T(0);
+constexpr void demagnetise(HysteresisState<T>& state, T flux) {
+  state.flux = flux;
+  detail::centre_stops<0>(state, flux);
 }
 
 /// What the hysteresis would answer at another flux.

@@ -26,11 +26,12 @@ constexpr CoilResistance<double> coil{
     .resistance_Ohm = 10, .uncertainty_Ohm = 2, .drift_Ohm_per_root_s = 0.02, .voltage_noise_V_root_s = 0.01};
 
 constexpr double sampled_every_s = 1e-3;
+constexpr double least_A = 0.04;
 
 /// One sample, in the mean and in the filter.
 void follow(CoilResistanceState<double>& state, const CoilEquation<double>& sample) {
   collect(state, sample, sampled_every_s);
-  follow_resistance(coil, state, take_up(state));
+  follow_resistance(coil, state, {take_up(state), least_A});
 }
 
 /// Ten seconds at 1 ms and 0.8 A of a coil that has `resistance_Ohm`.
@@ -74,7 +75,7 @@ TEST(CoilResistance, IsFollowedUnderStrongDitherWhoseFluxRateIsUncertain) {
       const double current_A = 0.8 + 0.25 * std::sin(angle);
       const double flux_rate_V = 12 * std::cos(angle);
       collect(state, {current_A, 10 * current_A + flux_rate_V, 0.7 * flux_rate_V}, sampled_every_s);
-      if (n % 5 == 0) follow_resistance(coil, state, take_up(state));
+      if (n % 5 == 0) follow_resistance(coil, state, {take_up(state), least_A});
     }
     EXPECT_FALSE(state.implausible) << phase;
     EXPECT_NEAR(state.resistance_Ohm, 10, 0.5) << phase;
@@ -99,6 +100,15 @@ bool unanswered(double after_s) {
   take_up(state);
   judge_answer(coil, state, 0.4);
   return state.unanswered;
+}
+
+TEST(CoilResistance, RestsThatLeaveTheZeroOfTheInstrumentsAloneAreNoFault) {
+  CoilResistanceState<double> state = followed(11);
+  for (int n = 0; n < 600000; ++n) follow(state, {0.5 * least_A, 0.01, 0.0});
+  EXPECT_FALSE(state.implausible);
+  EXPECT_NEAR(state.resistance_Ohm, 11, 0.2);
+  for (int n = 0; n < 10000; ++n) follow(state, {0.8, 0.8 * 9, 0.0});
+  EXPECT_NEAR(state.resistance_Ohm, 9, 0.2);  // it has cooled meanwhile
 }
 
 TEST(CoilResistance, AVoltageThatNoCurrentAnswersIsAFaultWithinFiveHundredthsOfASecond) {

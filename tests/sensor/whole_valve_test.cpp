@@ -102,6 +102,7 @@ TEST(WholeValve, TakesOffWhatTheIdleSolenoidsIronStillHolds) {
   EXPECT_LE(state.idle.magnetic_force_N, law.force_per_current_N_per_A(0) * held_A + 0.01);
   const double alone_N = [&] {
     ObserverState<double> fresh{};
+    step(direction, fresh, Sample<double>{sample_s, 0, 0, 0.1e-3, 313});  // the other coil began without current, too
     for (int k = 0; k < 300; ++k) step(direction, fresh, Sample<double>{sample_s, 0.3, 3, 0.1e-3, 313});
     return fresh.last.magnetic_force_N;
   }();
