@@ -12,6 +12,7 @@
 #include "spoolflow/plausibility/limits.hpp"
 #include "spoolflow/plausibility/motion_delay.hpp"
 #include "spoolflow/plausibility/relation.hpp"
+#include "spoolflow/plausibility/signals/coil_signals.hpp"
 
 namespace spoolflow::plausibility {
 
@@ -33,6 +34,8 @@ std::vector<Finding> channel_findings(const std::vector<const Recording*>& campa
   for (const Recording& means : all) {
     add(means, true, frozen_channel(means));
     add(means, true, signed_coil_currents(means));
+    for (const std::string& leap : resistance_leaps(means)) add(means, true, leap);
+    for (const std::string& zero : currents_without_voltage(means)) add(means, false, zero);
     if (changes_per_s * range_of(means.column(Channel::time)) >= fewest_oil_changes)
       add(means, false, frozen_oil_temperature(means));
   }

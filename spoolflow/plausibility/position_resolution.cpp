@@ -5,8 +5,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
+
+#include <fmt/format.h>
 
 #include "spoolflow/numerics/median.hpp"
+#include "spoolflow/plausibility/limits.hpp"
+#include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::plausibility {
 namespace {
@@ -111,6 +116,25 @@ double PositionResolution::noise_m() const {
 
 double PositionResolution::step_m() const {
   return least_change_m_;
+}
+
+std::string coarse_position(const PositionResolution& resolution, double noise_m) {
+  if (!(noise_m > 0)) return {};
+  const auto coarse = [&](std::string_view as, double value_m, std::string_view costs) {
+    return fmt::format(
+        "position comes {} {:.2g} um, and the model's valve was calibrated with noise of {:.2g} um: {}; record it as "
+        "finely as the bench tests were, or calibrate from bench tests recorded like this",
+        as, units::mm_from_m(value_m) * 1e3, units::mm_from_m(noise_m) * 1e3, costs);
+  };
+  if (resolution.step_m() > position_step_noises * noise_m) {
+    return coarse("in steps of", resolution.step_m(),
+                  "the sensor takes steps for motion of the spool, and its band is too narrow");
+  }
+  if (resolution.noise_m() > position_noise_factor * noise_m) {
+    return coarse("with noise of", resolution.noise_m(),
+                  "the sensor does not see a slow spool move, and its band widens to several percent");
+  }
+  return {};
 }
 
 }  // namespace spoolflow::plausibility

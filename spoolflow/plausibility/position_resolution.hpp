@@ -2,6 +2,7 @@
 /// How finely a run's position is recorded: its noise, and the steps in which it comes.
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace spoolflow::plausibility {
@@ -31,5 +32,9 @@ class PositionResolution {
   double first_s_ = 0, last_s_ = 0;
   std::uint64_t samples_ = 0;
 };
+
+/// In words a position that is recorded more coarsely than in the campaign, of `noise_m` (0: not known): the sensor
+/// takes its steps for motion, and does not see a slow spool move beneath its noise. Empty: none.
+[[nodiscard]] std::string coarse_position(const PositionResolution& resolution, double noise_m);
 
 }  // namespace spoolflow::plausibility

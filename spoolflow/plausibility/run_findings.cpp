@@ -18,6 +18,7 @@
 #include "spoolflow/plausibility/recording_error.hpp"
 #include "spoolflow/plausibility/reference_shift.hpp"
 #include "spoolflow/plausibility/run_relations.hpp"
+#include "spoolflow/plausibility/signals/coil_signals.hpp"
 #include "spoolflow/plausibility/steady_lines.hpp"
 #include "spoolflow/plausibility/zero_findings.hpp"
 #include "spoolflow/recording/coil_channels.hpp"
@@ -217,28 +218,6 @@ std::optional<RunExplanation> best_explanation(RunTrial& trial, const std::vecto
   return best;
 }
 
-/// A position that is recorded more coarsely than in the campaign: the sensor takes its steps for motion, and does not
-/// see a slow spool move beneath its noise.
-std::string coarse_position(const KnownValve& known, const PositionResolution& resolution) {
-  const double noise_m = known.position_noise_m;
-  if (!(noise_m > 0)) return {};
-  const auto coarse = [&](std::string_view as, double value_m, std::string_view costs) {
-    return fmt::format(
-        "position comes {} {:.2g} um, and the model's valve was calibrated with noise of {:.2g} um: {}; record it as "
-        "finely as the bench tests were, or calibrate from bench tests recorded like this",
-        as, units::mm_from_m(value_m) * 1e3, units::mm_from_m(noise_m) * 1e3, costs);
-  };
-  if (resolution.step_m() > position_step_noises * noise_m) {
-    return coarse("in steps of", resolution.step_m(),
-                  "the sensor takes steps for motion of the spool, and its band is too narrow");
-  }
-  if (resolution.noise_m() > position_noise_factor * noise_m) {
-    return coarse("with noise of", resolution.noise_m(),
-                  "the sensor does not see a slow spool move, and its band widens to several percent");
-  }
-  return {};
-}
-
 /// A channel that stands still while what moves it does not: the voltage while the current changes, the reference flow
 /// while the spool moves.
 std::string dead_channel(const Recording& run, double stroke_m) {
@@ -284,6 +263,21 @@ std::optional<ErrorFinding> error_finding(RunTrial& trial) {
                   worst->of, worst->shown)};
 }
 
+/// What the channels say against themselves, whatever the valve's forces.
+std::vector<Finding> signal_findings(const Recording& means, const RunMeans& run, const model::Range& calibrated_K) {
+  std::vector<Finding> out;
+  const auto add = [&](bool cannot_be, const std::string& text) {
+    if (!text.empty()) out.push_back({cannot_be, text});
+  };
+  add(false, frozen_oil_temperature_alone(means));
+  add(false, temperature_in_another_unit(means, calibrated_K));
+  for (const std::string& clipped : run.clipped().findings()) add(true, clipped);
+  for (const std::string& leap : resistance_leaps(means)) add(true, leap);
+  for (const std::string& zero : currents_without_voltage(means)) add(false, zero);
+  if (const auto late_s = run.motion_delay().late_s()) add(true, shown_delay(*late_s));
+  return out;
+}
+
 }  // namespace
 
 std::vector<Finding> run_findings(const std::vector<KnownValve>& valve, const RunMeans& run,
@@ -297,34 +291,35 @@ std::vector<Finding> run_findings(const std::vector<KnownValve>& valve, const Ru
                                       run.gaps().longest_from_s)});
   }
   RunTrial trial(valve, run.means(file));
-  for (const std::string& dead :
-       {dead_channel(trial.run, trial.stroke_m()), signed_coil_currents(trial.run), frozen_channel(trial.run)}) {
+  for (const std::string& dead : {dead_channel(trial.run, trial.stroke_m()), signed_coil_currents(trial.run),
+                                  frozen_channel(trial.run), current_without_mean(trial.run)}) {
     if (dead.empty()) continue;
     out.push_back({true, fmt::format("{}: {}", name, dead)});
     return out;
   }
-  if (const std::string oil = frozen_oil_temperature_alone(trial.run); !oil.empty())
-    out.push_back({false, fmt::format("{}: {}", name, oil)});
-  if (const std::string oil = temperature_in_another_unit(trial.run, valve.front().oil_temperature_K); !oil.empty())
-    out.push_back({false, fmt::format("{}: {}", name, oil)});
-  for (const std::string& clipped : run.clipped().findings())
-    out.push_back({true, fmt::format("{}: {}", name, clipped)});
-  if (const auto late_s = run.motion_delay().late_s())
-    out.push_back({true, fmt::format("{}: {}", name, shown_delay(*late_s))});
+  const auto add = [&](bool cannot_be, const std::string& text) {
+    if (!text.empty()) out.push_back({cannot_be, fmt::format("{}: {}", name, text)});
+  };
+  if (const std::string supply = supply_voltage(trial.run); !supply.empty()) {
+    add(true, supply);
+    for (const Channel voltage : {Channel::voltage, Channel::voltage_a, Channel::voltage_b})
+      trial.run.column(voltage).clear();
+  }
+  for (const Finding& finding : signal_findings(trial.run, run, valve.front().oil_temperature_K))
+    add(finding.cannot_be, finding.text);
   std::vector<double>& reference = trial.run.column(Channel::flow);
   const std::vector<double>& time_s = trial.run.column(Channel::time);
   if (const auto shift = reference_shift(time_s, trial.expected_flow(), reference)) {
-    out.push_back({true, fmt::format("{}: {}", name, shown(*shift))});
+    add(true, shown(*shift));
     reference = values_later(time_s, reference, shift->late_s);
   }
-  for (const Finding& finding : run_zero_findings(trial.run, trial.directions()))
-    out.push_back({finding.cannot_be, fmt::format("{}: {}", name, finding.text)});
+  for (const Finding& finding : run_zero_findings(trial.run, trial.directions())) add(finding.cannot_be, finding.text);
   const std::optional<ErrorFinding> error = error_finding(trial);
-  const std::string coarse = coarse_position(valve.front(), run.position_resolution());
-  if (!coarse.empty() && !(error && error->of_position)) out.push_back({false, fmt::format("{}: {}", name, coarse)});
+  const std::string coarse = coarse_position(run.position_resolution(), valve.front().position_noise_m);
+  if (!(error && error->of_position)) add(false, coarse);
   for (const std::string& line : steady_line_findings(run.steady_lines(), valve.front().position_noise_m))
-    out.push_back({false, fmt::format("{}: {}", name, line)});
-  if (error) out.push_back({error->cannot_be, fmt::format("{}: {}", name, error->text)});
+    add(false, line);
+  if (error) add(error->cannot_be, error->text);
   return out;
 }
 

@@ -17,4 +17,17 @@ inline RigBenches example_benches() {
   return out;
 }
 
+/// Made once.
+inline const RigBenches& example() {
+  static const RigBenches valve = example_benches();
+  return valve;
+}
+inline const recording::Recording& ramp() {
+  return example().recordings.at("ramp_60bar.h5");
+}
+inline const recording::Recording& duty_cycle() {
+  static const recording::Recording run = recording::read_recording(SPOOLFLOW_EXAMPLES "/valve_a/duty_cycle_1.h5", {});
+  return run;
+}
+
 }  // namespace spoolflow::plausibility

@@ -25,15 +25,6 @@ namespace {
 using recording::Channel;
 using recording::Recording;
 
-const RigBenches& example() {
-  static const RigBenches valve = example_benches();
-  return valve;
-}
-const Recording& duty_cycle() {
-  static const Recording run = recording::read_recording(SPOOLFLOW_EXAMPLES "/valve_a/duty_cycle_1.h5", {});
-  return run;
-}
-
 /// The value below which a share of the samples lies.
 double quantile(std::vector<double> values, double share) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
