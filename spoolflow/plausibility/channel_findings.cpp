@@ -13,6 +13,7 @@
 #include "spoolflow/plausibility/motion_delay.hpp"
 #include "spoolflow/plausibility/relation.hpp"
 #include "spoolflow/plausibility/signals/coil_signals.hpp"
+#include "spoolflow/plausibility/signals/sample_grid.hpp"
 
 namespace spoolflow::plausibility {
 
@@ -43,6 +44,10 @@ std::vector<Finding> channel_findings(const std::vector<const Recording*>& campa
     ClippedChannels clipped;
     clipped.take(recording->columns);
     for (const std::string& each : clipped.findings()) add(*recording, true, each);
+    SampleGrid grid;
+    grid.take(recording->columns);
+    add(*recording, false, grid.resampled());
+    add(*recording, false, grid.coarse_current());
     MotionDelay delay;
     delay.take(recording->columns);
     if (const auto late_s = delay.late_s()) add(*recording, true, shown_delay(*late_s));

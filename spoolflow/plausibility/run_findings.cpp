@@ -263,8 +263,9 @@ std::optional<ErrorFinding> error_finding(RunTrial& trial) {
                   worst->of, worst->shown)};
 }
 
-/// What the channels say against themselves, whatever the valve's forces.
-std::vector<Finding> signal_findings(const Recording& means, const RunMeans& run, const model::Range& calibrated_K) {
+/// What the channels say against themselves, whatever the valve's forces. Resampled ones say nothing of the coil.
+std::vector<Finding> signal_findings(const Recording& means, const RunMeans& run, const model::Range& calibrated_K,
+                                     bool is_resampled) {
   std::vector<Finding> out;
   const auto add = [&](bool cannot_be, const std::string& text) {
     if (!text.empty()) out.push_back({cannot_be, text});
@@ -272,8 +273,11 @@ std::vector<Finding> signal_findings(const Recording& means, const RunMeans& run
   add(false, frozen_oil_temperature_alone(means));
   add(false, temperature_in_another_unit(means, calibrated_K));
   for (const std::string& clipped : run.clipped().findings()) add(true, clipped);
-  for (const std::string& leap : resistance_leaps(means)) add(true, leap);
-  for (const std::string& zero : currents_without_voltage(means)) add(false, zero);
+  if (!is_resampled) {
+    for (const std::string& leap : resistance_leaps(means)) add(true, leap);
+    for (const std::string& zero : currents_without_voltage(means)) add(false, zero);
+    add(false, run.sample_grid().coarse_current());
+  }
   if (const auto late_s = run.motion_delay().late_s()) add(true, shown_delay(*late_s));
   return out;
 }
@@ -305,8 +309,10 @@ std::vector<Finding> run_findings(const std::vector<KnownValve>& valve, const Ru
     for (const Channel voltage : {Channel::voltage, Channel::voltage_a, Channel::voltage_b})
       trial.run.column(voltage).clear();
   }
-  for (const Finding& finding : signal_findings(trial.run, run, valve.front().oil_temperature_K))
+  const std::string resampled = run.sample_grid().resampled();
+  for (const Finding& finding : signal_findings(trial.run, run, valve.front().oil_temperature_K, !resampled.empty()))
     add(finding.cannot_be, finding.text);
+  add(false, resampled);
   std::vector<double>& reference = trial.run.column(Channel::flow);
   const std::vector<double>& time_s = trial.run.column(Channel::time);
   if (const auto shift = reference_shift(time_s, trial.expected_flow(), reference)) {
@@ -314,6 +320,7 @@ std::vector<Finding> run_findings(const std::vector<KnownValve>& valve, const Ru
     reference = values_later(time_s, reference, shift->late_s);
   }
   for (const Finding& finding : run_zero_findings(trial.run, trial.directions())) add(finding.cannot_be, finding.text);
+  if (!resampled.empty()) return out;  // neither lines nor forces are the valve's
   const std::optional<ErrorFinding> error = error_finding(trial);
   const std::string coarse = coarse_position(run.position_resolution(), valve.front().position_noise_m);
   if (!(error && error->of_position)) add(false, coarse);

@@ -91,6 +91,7 @@ void RunMeans::take(const recording::SampleBlock& block) {
   steady_lines_.position.take(time_s, block.column(Channel::position));
   clipped_.take(block.columns);
   motion_delay_.take(block.columns);
+  sample_grid_.take(block.columns);
   const bool both = !block.column(Channel::current_b).empty();
   for (const Channel coil : {both ? Channel::current_b : Channel::current, Channel::current_a}) {
     const std::size_t k = coil == Channel::current_a;

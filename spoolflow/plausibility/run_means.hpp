@@ -8,6 +8,7 @@
 #include "spoolflow/plausibility/clipped_channel.hpp"
 #include "spoolflow/plausibility/motion_delay.hpp"
 #include "spoolflow/plausibility/position_resolution.hpp"
+#include "spoolflow/plausibility/signals/sample_grid.hpp"
 #include "spoolflow/plausibility/steady_lines.hpp"
 #include "spoolflow/recording/reader.hpp"
 #include "spoolflow/recording/recording.hpp"
@@ -32,6 +33,7 @@ class RunMeans {
   [[nodiscard]] const PositionResolution& position_resolution() const { return position_resolution_; }
   [[nodiscard]] const SteadyLines& steady_lines() const { return steady_lines_; }
   [[nodiscard]] const ClippedChannels& clipped() const { return clipped_; }
+  [[nodiscard]] const SampleGrid& sample_grid() const { return sample_grid_; }
   [[nodiscard]] const MotionDelay& motion_delay() const { return motion_delay_; }
 
  private:
@@ -51,6 +53,7 @@ class RunMeans {
   SteadyLines steady_lines_;
   ClippedChannels clipped_;
   MotionDelay motion_delay_;
+  SampleGrid sample_grid_;
   double last_s_ = 0;
   bool begun_ = false;
 };
