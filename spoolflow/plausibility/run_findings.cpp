@@ -324,6 +324,7 @@ std::vector<Finding> run_findings(const std::vector<KnownValve>& valve, const Ru
   const std::optional<ErrorFinding> error = error_finding(trial);
   const std::string coarse = coarse_position(run.position_resolution(), valve.front().position_noise_m);
   if (!(error && error->of_position)) add(false, coarse);
+  add(false, low_pass_finding(run.steady_lines(), valve.front().position_noise_m));
   for (const std::string& line : steady_line_findings(run.steady_lines(), valve.front().position_noise_m))
     add(false, line);
   if (error) add(error->cannot_be, error->text);

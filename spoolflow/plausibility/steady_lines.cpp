@@ -1,10 +1,12 @@
 #include "spoolflow/plausibility/steady_lines.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <string>
+#include <string_view>
 #include <unsupported/Eigen/FFT>
 
 #include <fmt/format.h>
@@ -27,6 +29,7 @@ constexpr double lowest_Hz = 15, highest_Hz = 120, highest_dither_Hz = 240, lowe
 constexpr double near_Hz = 1;
 constexpr int most_harmonics = 30;
 constexpr double dither_share = 0.01;  ///< of the largest current
+constexpr std::array before_Hz{70.0, 120.0}, beyond_Hz{150.0, 190.0}, far_Hz{200.0, 235.0};
 
 const std::vector<double>& window() {
   static const std::vector<double> hann = [] {
@@ -154,6 +157,41 @@ std::optional<SpectralLine> Spectrum::line(double least_Hz, double most_Hz, std:
     best = {frequency_Hz + beside_bins * bin_Hz, 4 * std::sqrt(power[k]) / piece};
   }
   return best;
+}
+
+double Spectrum::noise(double least_Hz, double most_Hz) const {
+  if (!(most_Hz < bin_Hz * static_cast<double>(power.size()))) return std::nan("");
+  const auto at = [&](double Hz) { return power.begin() + static_cast<std::ptrdiff_t>(Hz / bin_Hz); };
+  constexpr double window_power = 0.375 * piece, median_over_mean = std::numbers::ln2;
+  const double samples_a_point = sample_rate_Hz / (bin_Hz * piece);
+  return std::sqrt(numerics::median({at(least_Hz), at(most_Hz)}) / (window_power * median_over_mean) * samples_a_point);
+}
+
+std::string low_pass_finding(const SteadyLines& run, double position_noise_m) {
+  const auto words = [](std::string_view channel, std::string_view held) {
+    return fmt::format(
+        "{} holds no noise beyond 150 Hz ({}): a low-pass of an amplifier or of the recorder takes it away, and with "
+        "it "
+        "dither and short slips of the spool, so that the answer is wrong and its band too narrow; switch the filters "
+        "of position and current off, or to 500 Hz and more, and record it again",
+        channel, held);
+  };
+  const auto falls = [](const Spectrum& of) {
+    return of.noise(far_Hz[0], far_Hz[1]) < falling_share * of.noise(beyond_Hz[0], beyond_Hz[1]);
+  };
+  const Spectrum position = run.position.median();
+  const double left_m = position.noise(beyond_Hz[0], beyond_Hz[1]);
+  if (left_m < low_pass_share * position_noise_m && falls(position))
+    return words("position", fmt::format("{:.2g} um, and the model's valve was calibrated with {:.2g} um",
+                                         units::mm_from_m(left_m) * 1e3, units::mm_from_m(position_noise_m) * 1e3));
+  for (std::size_t coil = 0; coil < run.current.size(); ++coil) {
+    const Spectrum current = run.current[coil].median();
+    const double left_A = current.noise(beyond_Hz[0], beyond_Hz[1]);
+    if (left_A < low_pass_current_share * run.largest_current_A[coil] && falls(current) &&
+        current.noise(far_Hz[0], far_Hz[1]) < low_pass_current_fall * current.noise(before_Hz[0], before_Hz[1]))
+      return words("current", fmt::format("{:.2g} mA", 1e3 * left_A));
+  }
+  return {};
 }
 
 std::vector<std::string> steady_line_findings(const SteadyLines& run, double position_noise_m) {

@@ -25,6 +25,10 @@ struct Spectrum {
   /// The line between these frequencies [Hz] that stands highest over its neighbours, if by `line_over_neighbours` at
   /// least. Near `passed` [Hz] none is looked for.
   [[nodiscard]] std::optional<SpectralLine> line(double least_Hz, double most_Hz, std::span<const double> passed) const;
+
+  /// Standard deviation of the samples' noise, in the unit of the signal, if all of it were as between these
+  /// frequencies [Hz]; NaN where the spectrum does not reach so far.
+  [[nodiscard]] double noise(double least_Hz, double most_Hz) const;
 };
 
 /// The median spectrum of a signal over pieces of four seconds, in bounded memory: what does not go on in half of them
@@ -59,5 +63,9 @@ struct SteadyLines {
 /// the position of `position_noise_m`, beside dither 2.5 times that, of a current of a thousandth of its largest
 /// value at least, beside dither of four. Empty: none.
 [[nodiscard]] std::vector<std::string> steady_line_findings(const SteadyLines& run, double position_noise_m);
+
+/// In words the channel, position or current, that holds less beyond 150 Hz than noise does: half of
+/// `position_noise_m`, of a current 0.02 % of its largest value, and falling. Empty: none.
+[[nodiscard]] std::string low_pass_finding(const SteadyLines& run, double position_noise_m);
 
 }  // namespace spoolflow::plausibility

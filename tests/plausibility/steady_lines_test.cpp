@@ -82,6 +82,52 @@ TEST(SteadyLines, APwmThatIsSampledAtInstantsIsNamedWithWhatToDeclare) {
               ElementsAre(AllOf(HasSubstr("current beats at 19.0 Hz by"), HasSubstr("pwm_ripple_percent = 3.9"))));
 }
 
+/// Keeps of each sample what one pole of a low-pass leaves of it, twice.
+struct LowPass {
+  double corner_Hz, rate_Hz;
+  double first = 0, second = 0;
+
+  double operator()(double value) {
+    const double share = 1 - std::exp(-2 * std::numbers::pi * corner_Hz / rate_Hz);
+    first += share * (value - first);
+    second += share * (first - second);
+    return second;
+  }
+};
+
+/// Dithered; position and current each behind a low-pass of their own; infinite: none.
+SteadyLines dithered_behind(double position_Hz, double current_Hz, double noise_share = 1) {
+  std::mt19937 engine(7);
+  std::normal_distribution<double> noise(0, noise_share);
+  LowPass of_position{position_Hz, 1000}, of_current{current_Hz, 1000};
+  std::vector<double> time_s, position, current;
+  for (int k = 0; k < 40'000; ++k) {
+    time_s.push_back(1e-3 * k);
+    const double dither = sine(140, time_s.back());
+    position.push_back(of_position(1e-3 + 3e-6 * dither + noise_m * noise(engine)));
+    current.push_back(of_current(1 + 0.15 * dither + 1.5e-3 * noise(engine)));
+  }
+  SteadyLines out;
+  out.position.take(time_s, position);
+  out.current[0].take(time_s, current);
+  out.largest_current_A[0] = 1.8;
+  return out;
+}
+
+TEST(LowPass, OfTheRecorderIsNamedInThePositionOrInTheCurrentAlone) {
+  constexpr double open = 1e9;
+  EXPECT_THAT(low_pass_finding(dithered_behind(open, open), noise_m), IsEmpty());
+  for (const double corner_Hz : {20.0, 50.0})
+    EXPECT_THAT(low_pass_finding(dithered_behind(corner_Hz, corner_Hz), noise_m),
+                AllOf(HasSubstr("position holds no noise beyond 150 Hz"), HasSubstr("dither"), HasSubstr("low-pass")));
+  EXPECT_THAT(low_pass_finding(dithered_behind(open, 20), noise_m), HasSubstr("current holds no noise beyond 150 Hz"));
+}
+
+TEST(LowPass, IsNoQuieterSensorNorAStrokingValve) {
+  EXPECT_THAT(low_pass_finding(dithered_behind(1e9, 1e9, 0.05), noise_m), IsEmpty());
+  EXPECT_THAT(low_pass_finding(run(1000, no_line, no_line), noise_m), IsEmpty());
+}
+
 TEST(SteadyLines, OfARunOfAnHourAreThoseOfAllItsTime) {
   MedianSpectrum spectrum;
   for (int block = 0; block < 36; ++block) {
