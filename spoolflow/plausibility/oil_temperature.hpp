@@ -1,5 +1,5 @@
 #pragma once
-/// Oil temperatures in another unit than their column says.
+/// Oil temperatures in another unit than their column says, or that no oil has.
 #include <string>
 
 #include "spoolflow/model/model.hpp"
@@ -11,5 +11,8 @@ namespace spoolflow::plausibility {
 /// puts it there; else empty. Oil that is only cold, or hot without such an explanation, is none.
 [[nodiscard]] std::string temperature_in_another_unit(const recording::Recording& run,
                                                       const model::Range& calibrated_K);
+
+/// One sentence where the oil temperature of a run leaps by 15 K and more, and stays there for 2 s. Empty: none.
+[[nodiscard]] std::string leaping_temperature(const recording::Recording& run);
 
 }  // namespace spoolflow::plausibility

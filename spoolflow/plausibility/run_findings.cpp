@@ -272,6 +272,7 @@ std::vector<Finding> signal_findings(const Recording& means, const RunMeans& run
   };
   add(false, frozen_oil_temperature_alone(means));
   add(false, temperature_in_another_unit(means, calibrated_K));
+  add(false, leaping_temperature(means));
   for (const std::string& clipped : run.clipped().findings()) add(true, clipped);
   if (!is_resampled) {
     for (const std::string& leap : resistance_leaps(means)) add(true, leap);

@@ -289,5 +289,22 @@ TEST(RunFindings, NameAReferenceThatIsTwoSecondsLateOrEarlyAndNoneOfOneThatIsAsL
   }
 }
 
+TEST(RunFindings, NameAThermometerThatStartsLate) {
+  const std::vector<KnownValve> known{known_valve(sound_size_6().benches())};
+  recording::Recording run = sound_size_6().recordings.at("ramp_60bar.csv");
+  std::vector<double>& oil_K = run.column(Channel::oil_temperature);
+  oil_K.resize(run.size(), 323.15);
+  std::mt19937 random(4);
+  std::normal_distribution<double> noise(0, 0.05);
+  for (double& value_K : oil_K) value_K += noise(random);
+  EXPECT_THAT(all_texts(run_findings(known, means_of(run), "run.csv")), testing::Not(testing::HasSubstr("leaps")));
+  for (const double first_K : {273.15, 293.15}) {
+    std::fill_n(oil_K.begin(), 5000, first_K);
+    EXPECT_THAT(
+        all_texts(run_findings(known, means_of(run), "run.csv")),
+        testing::HasSubstr(fmt::format("oil_temperature leaps from {:.1f} to 50.0 degC at 5.0 s", first_K - 273.15)));
+  }
+}
+
 }  // namespace
 }  // namespace spoolflow::plausibility
