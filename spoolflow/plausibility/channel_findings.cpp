@@ -43,6 +43,7 @@ std::vector<Finding> channel_findings(const std::vector<const Recording*>& campa
   for (const Recording* recording : campaign) {
     ClippedChannels clipped;
     clipped.take(recording->columns);
+    for (const std::string& each : clipped.missing_markers()) add(*recording, true, each);
     for (const std::string& each : clipped.findings()) add(*recording, true, each);
     SampleGrid grid;
     grid.take(recording->columns);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -32,6 +33,12 @@ bool is_clipped(const numerics::HeldExtremes& signal, double end, double held) {
          std::abs(end) > near_zero_share * size;
 }
 
+/// "-999 mm"
+bool is_marker(std::string_view value) {
+  if (value.starts_with('-')) value.remove_prefix(1);
+  return value.starts_with("999 ") || value.starts_with("9999 ");
+}
+
 }  // namespace
 
 void ClippedChannels::take(const std::array<std::vector<double>, recording::channel_count>& columns) {
@@ -41,23 +48,40 @@ void ClippedChannels::take(const std::array<std::vector<double>, recording::chan
   }
 }
 
-std::vector<std::string> ClippedChannels::findings() const {
-  std::vector<std::string> out;
+std::vector<ClippedChannels::Held> ClippedChannels::held(bool at_markers) const {
+  std::vector<Held> out;
   for (const Channel channel : watched) {
     const numerics::HeldExtremes& signal = extremes_[static_cast<std::size_t>(channel)];
     if (!(signal.lowest < signal.highest) || !is_fine(signal)) continue;
     for (const bool high : {true, false}) {
       const double end = high ? signal.highest : signal.lowest;
-      const auto held = static_cast<double>(high ? signal.at_highest : signal.at_lowest);
-      if (!is_clipped(signal, end, held)) continue;
-      out.push_back(fmt::format(
-          "{} stands at its {} value, {}, to the last digit for {:.2g} % of the samples, and its noise moves it "
-          "elsewhere: an amplifier, a converter or the recorder clips it; widen its range and record it again, or cut "
-          "those parts",
-          recording::name(channel), high ? "highest" : "lowest", shown_value(channel, end),
-          100 * held / static_cast<double>(signal.samples)));
+      const auto samples = static_cast<double>(high ? signal.at_highest : signal.at_lowest);
+      const std::string value = shown_value(channel, end);
+      if (is_clipped(signal, end, samples) && is_marker(value) == at_markers)
+        out.push_back({channel, high, value, samples / static_cast<double>(signal.samples)});
     }
   }
+  return out;
+}
+
+std::vector<std::string> ClippedChannels::missing_markers() const {
+  std::vector<std::string> out;
+  for (const Held& each : held(true))
+    out.push_back(fmt::format(
+        "{} is {} for {:.2g} % of the samples, a marker of missing values and no measured one: leave those samples "
+        "empty, or write nan",
+        recording::name(each.channel), each.value, 100 * each.share));
+  return out;
+}
+
+std::vector<std::string> ClippedChannels::findings() const {
+  std::vector<std::string> out;
+  for (const Held& each : held(false))
+    out.push_back(fmt::format(
+        "{} stands at its {} value, {}, to the last digit for {:.2g} % of the samples, and its noise moves it "
+        "elsewhere: an amplifier, a converter or the recorder clips it; widen its range and record it again, or cut "
+        "those parts",
+        recording::name(each.channel), each.high ? "highest" : "lowest", each.value, 100 * each.share));
   return out;
 }
 

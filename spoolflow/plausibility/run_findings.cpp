@@ -305,6 +305,10 @@ std::vector<Finding> run_findings(const std::vector<KnownValve>& valve, const Ru
   const auto add = [&](bool cannot_be, const std::string& text) {
     if (!text.empty()) out.push_back({cannot_be, fmt::format("{}: {}", name, text)});
   };
+  if (const std::vector<std::string> markers = run.clipped().missing_markers(); !markers.empty()) {
+    for (const std::string& marker : markers) add(true, marker);
+    return out;  // its means hold them
+  }
   if (const std::string supply = supply_voltage(trial.run); !supply.empty()) {
     add(true, supply);
     for (const Channel voltage : {Channel::voltage, Channel::voltage_a, Channel::voltage_b})

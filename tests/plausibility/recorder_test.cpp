@@ -77,6 +77,21 @@ TEST(ClippedChannel, IsNoneThatStandsAtItsEndByItself) {
   }
 }
 
+TEST(ClippedChannel, IsAMarkerOfMissingValuesWhereItStandsAtNines) {
+  for (const auto& [channel, marker] : {std::pair{Channel::position, -0.999}, std::pair{Channel::current, 9999.0}}) {
+    Recording marked = example().recordings.at("ramp_60bar.h5");
+    for (std::size_t k = 0; k < marked.size(); k += 1000)
+      std::fill_n(marked.column(channel).begin() + static_cast<std::ptrdiff_t>(k),
+                  std::min<std::size_t>(3, marked.size() - k), marker);
+    EXPECT_THAT(all_texts(channel_findings({&marked})), testing::AllOf(testing::HasSubstr("a marker of missing values"),
+                                                                       testing::Not(testing::HasSubstr("clips"))));
+    const std::vector<KnownValve> known{known_valve(example().benches())};
+    EXPECT_THAT(
+        all_texts(run_findings(known, means_of(marked), "run.h5")),
+        testing::MatchesRegex("run.h5: (position is -999 mm|current is 9999 A) for .* a marker of missing [^\n]*\n"));
+  }
+}
+
 Recording position_late(Recording run, double late_s) {
   shift_by(run, late_s, Channel::position);
   return run;
