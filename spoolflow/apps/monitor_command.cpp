@@ -50,16 +50,27 @@ void print_condition(const monitor::Monitor& watch, const model::Model& model) {
   for (const std::string& drift : monitor::drift_texts(model)) print("\ndrift {}\n", drift);
 }
 
-void refuse_other_kinds(const MonitorArguments& arguments) {
+void add(std::vector<std::string>& to, const std::vector<plausibility::Finding>& findings) {
+  for (const plausibility::Finding& finding : findings) to.push_back(finding.text);
+}
+
+void say_doubts(const std::vector<std::string>& doubts) {
+  for (const std::string& doubt : doubts)
+    say("spoolflow: doubt: {}; what is raised may be the recording's and not the valve's\n", doubt);
+}
+
+void refuse_unusable(const MonitorArguments& arguments) {
+  if (!arguments.adapt.empty() && std::ranges::count(arguments.recordings, "-") > 0)
+    throw model::ModelError("-: a corrected model names its recordings by their checksums; --adapt needs files");
   std::vector<Input> roles{{arguments.model, FileKind::model}};
   for (const std::string& recording : arguments.recordings) roles.push_back({recording, FileKind::recording});
-  apps::refuse_other_kinds("monitor", roles);
+  refuse_other_kinds("monitor", roles);
 }
 
 }  // namespace
 
 void monitor_recordings(const MonitorArguments& arguments) {
-  refuse_other_kinds(arguments);
+  refuse_unusable(arguments);
   const model::Model model = model::read_model(arguments.model);
   if (const std::string note = type_note(model, arguments.model); !note.empty() && !arguments.quiet) say("{}\n", note);
   recording::ChannelMap channels;
@@ -79,8 +90,6 @@ void monitor_recordings(const MonitorArguments& arguments) {
   }
   if (!arguments.json.empty()) json.emplace(arguments.json, inputs);
   if (!arguments.adapt.empty()) {
-    if (std::ranges::count(arguments.recordings, "-") > 0)
-      throw model::ModelError("-: a corrected model names its recordings by their checksums; --adapt needs files");
     inputs.emplace_back(arguments.json);
     corrected.emplace(arguments.adapt, inputs);
   }
@@ -90,6 +99,7 @@ void monitor_recordings(const MonitorArguments& arguments) {
   std::vector<report::MonitoredRun> runs;
   std::vector<report::TrendPoint> trend;
   BandWatch band;
+  std::vector<std::string> doubts;
   const auto total = static_cast<double>(arguments.recordings.size());
   {
     Progress progress("monitoring", arguments.quiet);
@@ -102,15 +112,17 @@ void monitor_recordings(const MonitorArguments& arguments) {
         band = BandWatch(watched.band);
         progress.update((before + 1) / total);
       } else {
-        monitor_recording(model, recording, channels, watch, trend, band, [&](std::optional<double> share) {
+        const auto show = [&](std::optional<double> share) {
           if (share) progress.update((before + *share) / total);
-        });
+        };
+        add(doubts, monitor_recording(model, recording, channels, watch, trend, band, show));
       }
       runs.push_back(
           {std::filesystem::path(recording).stem().string(), watch.condition(), watch.causes(), watch.indicators()});
       samples.push_back(watch.usage().samples - std::accumulate(samples.begin(), samples.end(), std::uint64_t{0}));
     }
   }
+  say_doubts(doubts);
   if (corrected) write_corrected(corrected->stream(), arguments, {model, {}, {}, samples, {}}, watch);
   if (page) report::write_monitor_report(page->stream(), model, watch, runs, trend, units);
   if (json) report::write_monitor_json(json->stream(), model, watch, runs, band.figures());

@@ -1,3 +1,7 @@
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -40,6 +44,22 @@ TEST_F(Monitor, AHealthyValveIsGoodAndItsJudgementIsABaseline) {
   const Answer later = run("monitor " + model + " " + ramp + " --baseline base.json --json - -q");
   ASSERT_EQ(later.status, 0) << later.message;
   EXPECT_EQ(nlohmann::json::parse(later.output)["ne107"], "good");
+}
+
+TEST_F(Monitor, ARecordingThatCannotBeSoundIsNamedBesideWhatItRaises) {
+  std::string text = "time_s,current_A,voltage_V,position_mm,oil_temperature_C\n";
+  for (int k = 0; k < 30'000; ++k) {
+    const double swing = std::sin(0.002 * k), noise = std::sin(1.7 * k * k);
+    const double driven_A = k % 10'000 < 7000 ? 1.2 + 0.5 * swing : 0;  // then the coil rests
+    text += fmt::format("{:.3f},{:.5f},{:.4f},{:.5f},50\n", 1e-3 * k, driven_A + 0.05 + 1e-3 * noise, 2.9 * driven_A,
+                        (driven_A > 0 ? 1.1 + 0.9 * swing : 0) + 1e-3 * noise);
+  }
+  write("off.csv", text);
+  const Answer answer = run("monitor " + model + " off.csv --json out.json -q");
+  ASSERT_EQ(answer.status, 0) << answer.message;
+  EXPECT_THAT(answer.message, HasSubstr("doubt: off.csv: current stands at +0.050 A"));
+  const Answer sound = run("monitor " + model + " " + ramp + " --json out.json -q");
+  EXPECT_THAT(sound.message, ::testing::Not(HasSubstr("doubt")));
 }
 
 TEST_F(Monitor, UnusableInputIsOneClearError) {

@@ -6,6 +6,7 @@
 #include "spoolflow/estimation/recordings/sensor_channels.hpp"
 #include "spoolflow/model/json_text.hpp"
 #include "spoolflow/monitor/baseline.hpp"
+#include "spoolflow/plausibility/run_findings.hpp"
 
 namespace spoolflow::apps {
 namespace {
@@ -47,15 +48,18 @@ void BandWatch::take(const model::Model& model, const monitor::Monitor& watch, c
   figures_.widened_m3_per_s += wider.flow_upper_m3_per_s - wider.flow_lower_m3_per_s;
 }
 
-void monitor_recording(const model::Model& model, const std::string& recording, const recording::ChannelMap& channels,
-                       monitor::Monitor& watch, std::vector<report::TrendPoint>& trend, BandWatch& band,
-                       const std::function<void(std::optional<double>)>& progress) {
+std::vector<plausibility::Finding> monitor_recording(const model::Model& model, const std::string& recording,
+                                                     const recording::ChannelMap& channels, monitor::Monitor& watch,
+                                                     std::vector<report::TrendPoint>& trend, BandWatch& band,
+                                                     const std::function<void(std::optional<double>)>& progress) {
   recording::ReadOptions options = estimation::sensor_channels(model, channels);
   options.optional.push_back(recording::Channel::position_set);
   const auto reader = estimation::open_sensor_channels(recording, options);
   estimation::RunningSensor sensor = estimation::running_sensor(model, estimation::Estimator::observer);
+  plausibility::RunMeans means;
   recording::SampleBlock block;
   while (reader->next(block)) {
+    means.take(block);
     const estimation::Columns columns = estimation::sensor_columns(block);
     const std::vector<double>& command = block.column(recording::Channel::position_set);
     for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -69,6 +73,7 @@ void monitor_recording(const model::Model& model, const std::string& recording, 
   }
   watch.finish();
   follow_trend(watch, trend);
+  return plausibility::run_findings(plausibility::known_valve(model), means, recording);
 }
 
 }  // namespace spoolflow::apps

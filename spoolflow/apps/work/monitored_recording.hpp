@@ -8,6 +8,7 @@
 #include "spoolflow/estimation/running_sensor.hpp"
 #include "spoolflow/monitor/baseline.hpp"
 #include "spoolflow/monitor/monitor.hpp"
+#include "spoolflow/plausibility/finding.hpp"
 #include "spoolflow/recording/channel_map.hpp"
 #include "spoolflow/report/monitor/monitored_run.hpp"
 
@@ -38,9 +39,11 @@ struct MonitoredRuns {
   BandWatch band{};
 };
 
-/// One recording through sensor and watch. `progress` receives the share read, where it is known.
-void monitor_recording(const model::Model& model, const std::string& recording, const recording::ChannelMap& channels,
-                       monitor::Monitor& watch, std::vector<report::TrendPoint>& trend, BandWatch& band,
-                       const std::function<void(std::optional<double>)>& progress);
+/// One recording through sensor and watch. `progress` receives the share read, where it is known. What physics says
+/// against the recording: such indicators are not the valve's.
+std::vector<plausibility::Finding> monitor_recording(const model::Model& model, const std::string& recording,
+                                                     const recording::ChannelMap& channels, monitor::Monitor& watch,
+                                                     std::vector<report::TrendPoint>& trend, BandWatch& band,
+                                                     const std::function<void(std::optional<double>)>& progress);
 
 }  // namespace spoolflow::apps
