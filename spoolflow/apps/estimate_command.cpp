@@ -104,12 +104,16 @@ void estimate(const EstimateArguments& arguments) {
   EstimateTask task = estimate_task(arguments);
   if (const std::string note = type_note(task.model, arguments.model); !note.empty() && !arguments.quiet)
     say("{}\n", note);
-  std::optional<OutputFile> summary_file;
-  if (!arguments.json.empty()) summary_file.emplace(arguments.json, task.inputs);
   std::vector<validation::EstimateSummary> summaries;
   const bool one = arguments.recordings.size() == 1;
   const auto targets = one ? std::vector<std::filesystem::path>{arguments.output}
                            : targets_in(arguments.output, arguments.recordings, task.format);
+  std::optional<OutputFile> summary_file;
+  if (!arguments.json.empty()) {
+    std::vector<std::filesystem::path> used = task.inputs;
+    used.insert(used.end(), targets.begin(), targets.end());
+    summary_file.emplace(arguments.json, used);
+  }
   if (!one) make_output_folder(arguments.output);
   if (!arguments.fleet.empty()) {
     summaries = elsewhere().estimate(task, arguments, targets);

@@ -78,6 +78,7 @@ TEST_F(WrongOutput, InputAsOutput) {
   expect_refused("estimate model.json run.h5 -o ./model.json", "the same file");
   expect_refused("validate model.json run.h5 --report run.h5 --json out", "the same file");
   expect_refused("validate model.json run.h5 --report other --json ./other", "the same file");
+  expect_refused("estimate model.json run.h5 -o other.csv --json ./other.csv", "also uses other.csv");
   EXPECT_EQ(content("run.h5"), before);
 }
 
