@@ -68,6 +68,7 @@ class Binder {
           "directions reads it, for a model of P to A alone map current to coil a, and position and flow with scale "
           "-1";
     }
+    if (const std::string lost = table_.lost(); !lost.empty()) hint += "; the file " + lost;
     if (const std::string unread = unread_for(channel); !unread.empty()) hint += "; " + unread;
     if (hint.empty()) {
       const ChannelMap guessed = guesses();

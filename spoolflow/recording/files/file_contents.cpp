@@ -13,6 +13,7 @@ FileContents contents_of(std::string format, const SampleTable& table) {
     out.leaves.push_back(column.leaf);
     out.units.push_back(stated_unit(column));
   }
+  if (const std::string lost = table.lost(); !lost.empty()) out.unread.push_back(lost);
   for (const UnreadPart& part : table.unread()) out.unread.push_back(part.what);
   return out;
 }

@@ -15,7 +15,7 @@ struct FileContents {
   /// What each column's name is looked for in: the last part of its name, or what the file labels it with.
   std::vector<std::string> leaves;
   std::vector<std::string> units;   ///< as a units row or an attribute says; empty where nothing does
-  std::vector<std::string> unread;  ///< what else it holds, and why that is not read
+  std::vector<std::string> unread;  ///< what of its end is missing, what else it holds, and why that is not read
 
   /// As a reader finds it.
   [[nodiscard]] FileColumn column(std::size_t index) const { return {columns[index], leaves[index], units[index], {}}; }

@@ -64,6 +64,7 @@ class Segments {
  private:
   /// Returns where the next one begins.
   std::uint64_t segment(std::uint64_t at) {
+    segment_ = at;
     what_ = fmt::format("{}: the segment at byte {}", file_.name(), at);
     if (begun_ && is_blank(at)) {
       lose(fmt::format("whatever was to stand in the last {} bytes, which begin with zeros", file_.size() - at));
@@ -85,7 +86,9 @@ class Segments {
     }
     const std::uint64_t end = cut ? file_.size() : begin + lead.next;
     if (lead.is(LeadIn::has_samples)) samples(begin + lead.samples, end, cut);
-    if (cut) lose(lead.next == unfinished ? "the end of its last segment, which was never finished" : "its end");
+    if (cut)
+      lose(lead.next == unfinished ? "the end of its last segment, which was never finished"
+                                   : fmt::format("the end of its last segment, {} bytes", lead.next - room));
     return end;
   }
 
@@ -164,7 +167,10 @@ class Segments {
     }
     TdmsProperties& said = out_.properties[path];
     said.read(bytes, order, what_);
-    if (names->size() == 2) note_wave(out_.channels[channel_of(path, *names)], said);
+    if (names->size() != 2) return;
+    TdmsChannel& channel = out_.channels[channel_of(path, *names)];
+    note_wave(channel, said);
+    if (const std::string* const unit = said.text("unit_string")) channel.said_unit = *unit;
   }
 
   /// What the properties say of the samples to come.
@@ -216,7 +222,7 @@ class Segments {
     if (rest == 0) return;
     const auto shorter = std::make_shared<const TdmsChunk>(shorter_chunk(*chunk_, rest, cut));
     if (shorter->parts.empty()) {
-      lose(fmt::format("the last {} bytes of samples, of which not all channels are there", rest));
+      lose(fmt::format("the end of its last segment, of which {} bytes are there, and not of all channels", rest));
     } else {
       add({shorter, begin + chunks * chunk_->bytes, 1});
     }
@@ -228,12 +234,18 @@ class Segments {
       if (part.count == 0) continue;
       channel.samples += part.count * run.chunks;
       if (channel.unread.empty()) channel.unread = part.unread;
+      if (channel.unit.empty()) channel.unit = channel.said_unit;
+      if (channel.unit != channel.said_unit && channel.unread.empty()) {
+        channel.unread = fmt::format("samples in {}, and in {} from the segment at byte {} on", channel.unit,
+                                     channel.said_unit, segment_);
+      }
       if (channel.samples > part.count * run.chunks && channel.of_time != part.is_time) {
         channel.unread = "times and numbers mixed";
       }
       channel.of_time = part.is_time;
     }
     out_.runs.push_back(run);
+    out_.runs.back().segment = segment_;
   }
 
   void lose(const std::string& what) {
@@ -246,6 +258,7 @@ class Segments {
   const FileBytes& file_;
   TdmsContents out_;
   std::string what_;
+  std::uint64_t segment_ = 0;                      ///< byte at which the one at hand begins
   std::map<std::string, std::size_t> channels_;    ///< by path
   std::vector<std::optional<TdmsRawIndex>> last_;  ///< of each channel
   std::vector<TdmsSource> sources_;                ///< of the segment at hand

@@ -27,6 +27,8 @@ struct TdmsChannel {
   std::string group, name;
   std::string path;           ///< as the file writes it: /'group'/'name'
   std::uint64_t samples = 0;  ///< in all runs
+  std::string said_unit{};    ///< as its properties state it last; empty where they do not
+  std::string unit{};         ///< likewise of the samples
   std::string unread{};       ///< why it cannot be read: "text"; empty where it can
   bool of_time = false;       ///< its samples are times
   /// Of even steps, one where the properties change: where the recording was stopped and went on, each segment has a

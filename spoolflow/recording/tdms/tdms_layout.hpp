@@ -36,8 +36,9 @@ struct TdmsChunk {
 /// Chunks of one layout, one behind the other.
 struct TdmsRun {
   std::shared_ptr<const TdmsChunk> chunk;
-  std::uint64_t at;      ///< byte of the file
-  std::uint64_t chunks;  ///< at least one
+  std::uint64_t at;           ///< byte of the file
+  std::uint64_t chunks;       ///< at least one
+  std::uint64_t segment = 0;  ///< byte at which it begins
 };
 
 }  // namespace spoolflow::recording

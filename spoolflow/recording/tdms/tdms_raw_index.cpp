@@ -10,6 +10,7 @@ namespace spoolflow::recording {
 namespace {
 
 constexpr std::uint32_t daqmx_numbers = 0x1269, daqmx_lines = 0x126A, daqmx_lines_too = 0x1369;
+constexpr double rounding_of_shares = 1e-6;  // samples
 
 [[noreturn]] void refuse(const std::string& what, const std::string& why) {
   throw RecordingError(fmt::format("{}: {}; it is damaged, copy or record it again", what, why));
@@ -100,6 +101,21 @@ void lay_out_rows(TdmsChunk& out, const std::vector<TdmsSource>& sources, const 
   out.bytes = width * sources.front().index.count;
 }
 
+/// Of channels one behind the other, of which the file's end cuts some off: the share of each that is there of all.
+/// None where a channel has nothing.
+void keep_in_all(TdmsChunk& chunk) {
+  double share = 1;
+  for (const TdmsPart& part : chunk.parts) {
+    if (part.count == 0) continue;
+    const std::uint64_t there = chunk.bytes > part.at ? (chunk.bytes - part.at) / part.stride : 0;
+    share = std::min(share, static_cast<double>(there) / static_cast<double>(part.count));
+  }
+  for (TdmsPart& part : chunk.parts) {
+    part.count = static_cast<std::uint64_t>(static_cast<double>(part.count) * share + rounding_of_shares);
+  }
+  if (std::ranges::all_of(chunk.parts, [](const TdmsPart& part) { return part.count == 0; })) chunk.parts.clear();
+}
+
 }  // namespace
 
 const TdmsPart* TdmsChunk::part_of(std::size_t channel) const {
@@ -181,8 +197,12 @@ TdmsChunk shorter_chunk(const TdmsChunk& whole, std::uint64_t bytes, bool cut) {
   const bool known = std::ranges::none_of(out.parts, [](const TdmsPart& part) { return part.stride == 0; });
   const bool of_daqmx = std::ranges::any_of(
       out.parts, [&](const TdmsPart& part) { return part.number && part.stride != part.number->bytes; });
-  if (cut || !known || of_daqmx) {
+  if (!known || of_daqmx) {
     out.parts.clear();
+    return out;
+  }
+  if (cut) {
+    keep_in_all(out);
     return out;
   }
   std::vector<TdmsPart*> in_file;
@@ -191,8 +211,7 @@ TdmsChunk shorter_chunk(const TdmsChunk& whole, std::uint64_t bytes, bool cut) {
   std::uint64_t at = 0;
   for (TdmsPart* const part : in_file) {
     const double share = static_cast<double>(bytes) / static_cast<double>(whole.bytes);
-    constexpr double rounding = 1e-6;
-    part->count = static_cast<std::uint64_t>(static_cast<double>(part->count) * share + rounding);
+    part->count = static_cast<std::uint64_t>(static_cast<double>(part->count) * share + rounding_of_shares);
     part->at = at;
     at += part->count * part->stride;
   }

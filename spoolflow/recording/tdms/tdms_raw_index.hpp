@@ -43,8 +43,8 @@ struct TdmsSource {
                                  const std::string& what);
 
 /// The last chunk of a segment, of which only `bytes` are there. Rows of all channels are kept as far as they are
-/// whole. Of channels one behind the other all are shorter by the same share; nothing is kept of them where the file
-/// was `cut`.
+/// whole. Of channels one behind the other all are shorter by the same share; where the file was `cut`, as long as the
+/// one of which the least is there: none where one has nothing.
 [[nodiscard]] TdmsChunk shorter_chunk(const TdmsChunk& whole, std::uint64_t bytes, bool cut);
 
 }  // namespace spoolflow::recording

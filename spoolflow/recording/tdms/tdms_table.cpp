@@ -10,6 +10,7 @@
 
 #include "spoolflow/recording/bytes/file_bytes.hpp"
 #include "spoolflow/recording/tdms/tdms_contents.hpp"
+#include "spoolflow/recording/tdms/tdms_pauses.hpp"
 #include "spoolflow/recording/tdms/tdms_scale.hpp"
 
 namespace spoolflow::recording {
@@ -36,6 +37,9 @@ class TdmsTable final : public VectorTable {
   explicit TdmsTable(const std::filesystem::path& path)
       : VectorTable(path.string()), bytes_(path), contents_(read_tdms_contents(bytes_)), buffer_(tdms_bytes_at_once) {
     find_origin();
+    std::vector<EvenTimes> times;
+    for (const TdmsChannel& channel : contents_.channels) times.push_back(times_of(channel));
+    slides_ = why_samples_slide(contents_, times);
     const TdmsProperties& of_file = contents_.of("/");
     for (std::size_t k = 0; k < contents_.channels.size(); ++k) list(k, of_file);
   }
@@ -91,15 +95,17 @@ class TdmsTable final : public VectorTable {
     TdmsScale scale(said, contents_.of(group), of_file);
     const std::string& why = channel.unread.empty() ? scale.unread() : channel.unread;
     const std::string name = channel.group + "/" + channel.name;
+    if (!slides_[index].empty()) {
+      keep(unread_, {name, fmt::format("channel '{}' {}", name, slides_[index])});
+      return;
+    }
     if (!why.empty()) {
       keep(unread_,
            {name, fmt::format("channel '{}' holds {}, which is not read; write it as numbers in its unit", name, why)});
       return;
     }
     FileColumn column{name, channel.name, channel.of_time ? "s" : ""};
-    if (const std::string* const unit = said.text("unit_string"); unit != nullptr && !channel.of_time) {
-      column.unit = *unit;
-    }
+    if (!channel.of_time) column.unit = channel.said_unit;
     column.wave = times_of(channel);
     add({std::move(column), channel.samples});
     sources_.push_back({index, std::move(scale)});
@@ -166,6 +172,7 @@ class TdmsTable final : public VectorTable {
   std::vector<std::uint8_t> buffer_;
   std::vector<Source> sources_;  ///< one a column
   std::optional<TdmsTime> origin_;
+  std::vector<std::string> slides_;  ///< why the times of a channel are not known, one a channel; empty where they are
   std::vector<UnreadPart> unread_;
 };
 

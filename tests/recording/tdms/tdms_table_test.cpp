@@ -282,6 +282,25 @@ TEST(TdmsWaves, WhatIsSaidBehindTheLastSampleDoesNotMoveTheSamples) {
   EXPECT_THAT(times_of(wave_segment({1, 1}, noon, 0, 0, 0.25) + closing), ElementsAre(0, 0.25));
 }
 
+TEST(TdmsTable, OfACutSegmentAllChannelsAreReadAsFarAsAllGo) {
+  const std::string metadata =
+      Meta().channel("/'g'/'time_s'", Meta::f64, 8).channel("/'g'/'current_A'", Meta::f64, 8).content();
+  const std::string whole = tdms_segment(
+      metadata, tdms_samples<double>({0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 8, 7, 6, 5, 4, 3, 2, 1}));
+  const std::string cut = whole.substr(0, whole.size() - 20);
+  EXPECT_THAT(column(cut, "g/current_A"), ElementsAre(8, 7, 6, 5, 4));
+  EXPECT_THAT(column(cut, "g/time_s"), ElementsAre(0, 0.125, 0.25, 0.375, 0.5));
+  const TemporaryFile file("run.tdms", cut);
+  EXPECT_THAT(read_recording(file.path(), {}).resampled, HasSubstr("lacks the end of its last segment, 20 bytes"));
+  const TemporaryFile half("run.tdms", whole.substr(0, whole.size() - 70));
+  EXPECT_THAT(
+      refusal([&] {
+        (void)read_recording(half.path(),
+                             {.channels = {}, .required = {Channel::current}, .optional = {}, .stroke_m = {}});
+      }),
+      HasSubstr("the file lacks the end of its last segment, of which 58 bytes are there, and not of all channels"));
+}
+
 TEST(TdmsTable, DamagedFilesAreRefused) {
   EXPECT_THAT(refused("TDSh" + std::string(40, '\0')), HasSubstr("name the file that ends in .tdms"));
   EXPECT_THAT(refused(tdms_segment(Meta().channel("/'g'/'a'", Meta::f64, std::uint64_t{1} << 50U).content(), "x")),
