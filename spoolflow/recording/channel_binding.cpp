@@ -10,6 +10,7 @@
 #include "spoolflow/recording/column_clock.hpp"
 #include "spoolflow/recording/files/file_contents.hpp"
 #include "spoolflow/recording/files/header_name.hpp"
+#include "spoolflow/recording/files/time_name.hpp"
 #include "spoolflow/recording/proposal.hpp"
 
 namespace spoolflow::recording {

@@ -18,12 +18,6 @@ struct ColumnClock {
   [[nodiscard]] bool operator==(const ColumnClock&) const = default;
 };
 
-/// Whether the column is called a time and its unit, where stated, is one: time_s, t, zeit_ms, pressure_time.
-[[nodiscard]] bool named_time(const FileColumn& column);
-
-/// The unit that such a column's name or the file states: "ms" of t_ms; empty where neither does.
-[[nodiscard]] std::string unit_of_time(const FileColumn& column);
-
 /// The clock of `column`: its own_time, where the file says it. Else sought are columns that are called a time, are
 /// none of `others` (columns known to be something else) and are equally long: beside it in its group or struct, then
 /// in those around it, one that carries its name first, then `usual` (the time of the current); then the attributes

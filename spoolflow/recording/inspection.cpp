@@ -11,6 +11,7 @@
 #include "spoolflow/recording/channels/allowed_names.hpp"
 #include "spoolflow/recording/column_survey.hpp"
 #include "spoolflow/recording/files/header_name.hpp"
+#include "spoolflow/recording/files/time_name.hpp"
 #include "spoolflow/recording/proposal.hpp"
 
 namespace spoolflow::recording {
@@ -196,7 +197,7 @@ void guess_unit_of_time(Inspection& out, const std::vector<SurveyedColumn>& colu
 void look_at_columns(Inspection& out, const Proposal& proposal, std::vector<SurveyedColumn> columns) {
   for (std::size_t k = 0; k < columns.size(); ++k) {
     columns[k].unit = out.contents.units[k];
-    columns[k].said = proposal.said[k];
+    columns[k].said = named_time(out.contents.column(k)) ? Channel::time : proposal.said[k];
   }
   std::map<Channel, std::size_t> known;
   for (const auto& [channel, source] : out.proposal.sources) {

@@ -10,6 +10,7 @@
 #include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/clock_follower.hpp"
 #include "spoolflow/recording/column_clock.hpp"
+#include "spoolflow/recording/files/time_name.hpp"
 #include "spoolflow/units/unit.hpp"
 
 namespace spoolflow::recording {

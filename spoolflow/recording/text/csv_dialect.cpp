@@ -16,6 +16,7 @@
 #include "spoolflow/recording/text/csv_cells.hpp"
 #include "spoolflow/recording/text/foreign_text.hpp"
 #include "spoolflow/recording/text/labview_settings.hpp"
+#include "spoolflow/recording/text/paired_times.hpp"
 #include "spoolflow/recording/text/rigol_settings.hpp"
 #include "spoolflow/recording/text/table_search.hpp"
 #include "spoolflow/recording/text/twincat_settings.hpp"
@@ -200,6 +201,7 @@ CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file,
   }
   dialect.header_bytes = beginning.size() - rest.size();
   find_units_in_samples(dialect, rest);
+  if (labview.lines == 0) dialect.several_times = pair_times(dialect.columns);
   return dialect;
 }
 

@@ -36,6 +36,11 @@ std::size_t samples_in(const std::vector<double>& times) {
   return static_cast<std::size_t>(times.rend() - last);
 }
 
+/// "time" of "time #2".
+std::string less_count(const std::string& name) {
+  return name.substr(0, name.rfind(" #"));
+}
+
 }  // namespace
 
 PairedTable::PairedTable(std::unique_ptr<CsvTable> text, const std::string& file) : VectorTable(file) {
@@ -44,6 +49,7 @@ PairedTable::PairedTable(std::unique_ptr<CsvTable> text, const std::string& file
   const std::vector<FileColumn>& all = text->columns();
   std::vector<std::vector<double>> read = all_numbers(*text, file);
   std::vector<std::size_t> same(all.size()), distinct;  // the first of equal times, and all that are first
+  std::vector<std::size_t> ends(all.size());            // samples of a time
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (all[k].own_time) continue;
     read[k].resize(samples_in(read[k]));
@@ -53,16 +59,21 @@ PairedTable::PairedTable(std::unique_ptr<CsvTable> text, const std::string& file
   }
   std::vector<FileColumn> columns;
   std::vector<std::size_t> place(all.size());  // of a time in this table
+  for (std::size_t k = 0, kept = 0; k < all.size(); ++k) {
+    place[k] = kept;
+    if (all[k].own_time || same[k] == k) ++kept;
+    if (!all[k].own_time) ends[k] = read[k].size();
+  }
   for (std::size_t k = 0; k < all.size(); ++k) {
     FileColumn column = all[k];
     if (!column.own_time) {
       if (same[k] != k) continue;
-      place[k] = columns.size();
-      column.name = column.name.substr(0, column.name.rfind(" #"));
-      if (distinct.size() > 1 && k + 1 < all.size()) column.name += " of " + all[k + 1].name;
+      column.name = less_count(column.name);
+      const auto called_so = [&](std::size_t time) { return less_count(all[time].name) == column.name; };
+      if (std::ranges::count_if(distinct, called_so) > 1 && k + 1 < all.size()) column.name += " of " + all[k + 1].name;
     } else {
+      read[k].resize(ends[*column.own_time]);
       column.own_time = place[same[*column.own_time]];
-      read[k].resize(values_[*column.own_time].size());
     }
     columns.push_back(std::move(column));
     values_.push_back(std::move(read[k]));

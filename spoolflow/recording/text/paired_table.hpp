@@ -1,6 +1,6 @@
 #pragma once
 /// Text in which columns have times of their own, each at its own rate and of its own length (TwinCAT Scope, LabVIEW
-/// with several X columns), as vectors: held in memory as a whole.
+/// with several X columns, CSV with a time beside each channel), as vectors: held in memory as a whole.
 #include <memory>
 #include <string>
 #include <vector>

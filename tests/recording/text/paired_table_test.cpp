@@ -1,5 +1,6 @@
 /// Text in which channels have times of their own, or state them above: exports of TwinCAT Scope, of LabVIEW
 /// and of Rigol oscilloscopes.
+#include <cmath>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -56,6 +57,29 @@ TEST(PairedTable, BringsChannelsOfTwinCatScopeOntoTheTimeOfTheCurrent) {
   EXPECT_NEAR(run[Channel::current][3], 4, 1e-12);
   EXPECT_NEAR(run[Channel::position][3], 2e-3, 1e-12);
   EXPECT_THAT(run.resampled, HasSubstr("'xSpool' from 1000 Hz"));
+}
+
+Recording read_pair_by_name(const std::string& text) {
+  const TemporaryFile file("run.csv", text);
+  return read_recording(file.path(), {{}, {Channel::current, Channel::position}, {}, {}});
+}
+
+TEST(PairedTable, ACsvMayWriteTheTimesOfAChannelBesideIt) {
+  const std::string rows = "\n0,1,0.002,0.5\n0.001,2,0.004,1.5\n0.002,3,,\n0.003,4,,\n0.004,5,,\n";
+  for (const std::string names : {"time_s,current_A,position_time_s,position_mm",
+                                  "time_s,current_A,time_s.1,position_mm", "time_s,current_A,time_s,position_mm"}) {
+    const Recording run = read_pair_by_name(names + rows);
+    ASSERT_EQ(run.size(), 5u) << names;
+    EXPECT_TRUE(std::isnan(run[Channel::position][1])) << names;
+    EXPECT_NEAR(run[Channel::position][2], 0.5e-3, 1e-12) << names;
+    EXPECT_NEAR(run[Channel::position][3], 1e-3, 1e-12) << names;
+  }
+  const std::string behind = "time_s,position_mm,position_time_s,current_A\n0,0.5,0.001,1\n0.001,1.5,0.002,2\n";
+  EXPECT_NEAR(read_pair_by_name(behind)[Channel::position][1], 0.5e-3, 1e-12);
+}
+
+TEST(PairedTable, ASecondTimeOfAnotherNameIsAColumnAsAnyOther) {
+  EXPECT_THAT(column_of("run.csv", "time_s,timestamp_ms,current_A\n0,5,1\n1,6,2\n", "timestamp_ms"), ElementsAre(5, 6));
 }
 
 TEST(PairedTable, ReadsAnExportInWhichChannelsShareAColumnOfTimes) {
