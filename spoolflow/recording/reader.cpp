@@ -37,7 +37,13 @@ class ChannelReader final : public Reader {
     OneClock clocked = on_one_clock(
         std::move(table), bound_, [this] { return open_again(); }, file_);
     table_ = std::move(clocked.table);
-    for (const std::string& note : {table_->lost(), unread, clocked.resampled}) {
+    std::string unapplied;
+    for (const BoundColumn& column : bound_) {
+      if (column.column >= table_->columns().size()) continue;  // the time of a waveform
+      const std::string& said = table_->columns()[column.column].unapplied;
+      if (!said.empty()) unapplied += (unapplied.empty() ? "" : "; ") + said;
+    }
+    for (const std::string& note : {table_->lost(), unread, unapplied, clocked.resampled}) {
       if (!note.empty()) notes_.resampled += (notes_.resampled.empty() ? "" : "; ") + note;
     }
     std::vector<std::size_t> chosen;

@@ -143,7 +143,7 @@ std::string listing_of(const VectorTable& table) {
   out.number(table.columns().size());
   for (std::size_t k = 0; k < table.columns().size(); ++k) {
     const FileColumn& column = table.columns()[k];
-    for (const std::string* text : {&column.name, &column.leaf, &column.unit}) out.text(*text);
+    for (const std::string* text : {&column.name, &column.leaf, &column.unit, &column.unapplied}) out.text(*text);
     out.number(column.wave.stretches().size());
     for (const EvenStretch& stretch : column.wave.stretches()) {
       out.number(stretch.first);
@@ -229,7 +229,7 @@ class ConfinedTable final : public VectorTable {
     std::vector<std::uint64_t> lengths;
     for (std::uint64_t left = content.number(); left > 0; --left) {
       FileColumn& column = columns.emplace_back();
-      for (std::string* text : {&column.name, &column.leaf, &column.unit}) *text = content.text();
+      for (std::string* text : {&column.name, &column.leaf, &column.unit, &column.unapplied}) *text = content.text();
       for (std::uint64_t stretches = content.number(); stretches > 0; --stretches) {
         EvenStretch stretch{content.number()};
         for (double* value : {&stretch.begin_s, &stretch.step_s}) *value = std::bit_cast<double>(content.number());

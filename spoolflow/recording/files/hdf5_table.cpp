@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -13,65 +14,19 @@
 #include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/files/clock_time.hpp"
 #include "spoolflow/recording/files/declared_size.hpp"
+#include "spoolflow/recording/files/hdf5_attributes.hpp"
 #include "spoolflow/recording/files/hdf5_handle.hpp"
 #include "spoolflow/recording/files/hdf5_other_files.hpp"
 #include "spoolflow/recording/files/hdf5_unread.hpp"
 #include "spoolflow/recording/files/matrix_names.hpp"
+#include "spoolflow/recording/files/time_name.hpp"
 #include "spoolflow/recording/files/vector_table.hpp"
+#include "spoolflow/units/unit.hpp"
 
 namespace spoolflow::recording {
 namespace {
 
 constexpr std::size_t chunk_cache_bytes = std::size_t{16} << 20;  // a chunk is unpacked once, not once a block
-constexpr std::size_t longest_text = 4096;
-
-/// A text attribute, of fixed or variable length; empty where there is none.
-std::string text_attribute(hid_t object, const char* name) {
-  if (H5Aexists(object, name) <= 0) return {};
-  const Hdf5Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
-  if (!attribute.valid()) return {};
-  const Hdf5Handle type(H5Aget_type(attribute.id()), H5Tclose);
-  const Hdf5Handle space(H5Aget_space(attribute.id()), H5Sclose);
-  if (!type.valid() || !space.valid() || H5Tget_class(type.id()) != H5T_STRING) return {};
-  if (H5Sget_simple_extent_npoints(space.id()) != 1) return {};
-  std::string out;
-  if (H5Tis_variable_str(type.id()) > 0) {
-    char* text = nullptr;
-    if (H5Aread(attribute.id(), type.id(), &text) < 0 || text == nullptr) return {};
-    out.assign(text, std::find(text, text + longest_text, '\0'));
-    H5free_memory(text);
-  } else {
-    const std::size_t size = H5Tget_size(type.id());
-    if (size == 0 || size > longest_text) return {};
-    out.resize(size);
-    if (H5Aread(attribute.id(), type.id(), out.data()) < 0) return {};
-    out.resize(std::min(out.size(), out.find('\0')));
-  }
-  while (!out.empty() && out.back() == ' ') out.pop_back();
-  return out;
-}
-
-/// A numeric attribute; `otherwise` where there is none.
-double number_attribute(hid_t object, const char* name, double otherwise) {
-  if (H5Aexists(object, name) <= 0) return otherwise;
-  const Hdf5Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
-  if (!attribute.valid()) return otherwise;
-  const Hdf5Handle space(H5Aget_space(attribute.id()), H5Sclose);
-  double value = otherwise;
-  if (!space.valid() || H5Sget_simple_extent_npoints(space.id()) != 1 ||
-      H5Aread(attribute.id(), H5T_NATIVE_DOUBLE, &value) < 0) {
-    return otherwise;
-  }
-  return value;
-}
-
-/// The instant of a waveform's beginning, as text or as a number of seconds.
-std::optional<ClockTime> start_attribute(hid_t object) {
-  if (const std::string text = text_attribute(object, "wf_start_time"); !text.empty()) return read_clock_time(text);
-  const double second = number_attribute(object, "wf_start_time", 0.0);
-  if (!(second > 0) || !std::isfinite(second)) return std::nullopt;
-  return ClockTime{0, second};
-}
 
 class Hdf5Table final : public VectorTable {
  public:
@@ -99,16 +54,8 @@ class Hdf5Table final : public VectorTable {
   void copy(std::size_t column, std::uint64_t first, std::size_t count, double* out) override {
     const Source& source = sources_[column];
     const Dataset& from = opened(column, first);
-    // A vector lies along the first dimension, or as a row along the second.
-    const std::array<hsize_t, 2> start{source.is_row ? source.index : first, source.is_row ? first : source.index};
-    const std::array<hsize_t, 2> size{source.is_row ? 1 : count, source.is_row ? count : 1};
-    const hsize_t in_memory = count;
-    const Hdf5Handle memory(H5Screate_simple(1, &in_memory, nullptr), H5Sclose);
-    if (!from.space.valid() || !memory.valid() ||
-        H5Sselect_hyperslab(from.space.id(), H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr) < 0 ||
-        H5Dread(from.dataset.id(), H5T_NATIVE_DOUBLE, memory.id(), from.space.id(), H5P_DEFAULT, out) < 0) {
-      refuse_damaged(source, first);
-    }
+    read_stored(source, from, first, count, out);
+    for (const double fill : from.fills) std::replace(out, out + count, fill, std::numeric_limits<double>::quiet_NaN());
     if (from.scale == 1.0 && from.offset == 0.0) return;
     for (std::size_t k = 0; k < count; ++k) out[k] = from.scale * out[k] + from.offset;
   }
@@ -119,13 +66,32 @@ class Hdf5Table final : public VectorTable {
     int rank;
     bool is_row;
     std::uint64_t index;
+    double later = 0;  ///< of times: by how much their group begins after the first one, in their unit
   };
   struct Dataset {
     Hdf5Handle dataset;
     Hdf5Handle space;
     double scale = 1.0;
     double offset = 0.0;
+    std::vector<double> fills{};  ///< numbers that stand for a missing sample, as stored
   };
+  struct Listed {
+    Vector vector;
+    std::optional<ClockTime> start;  ///< of the waveform, or of the group that the times count in
+  };
+
+  void read_stored(const Source& source, const Dataset& from, std::uint64_t first, std::size_t count, double* out) {
+    // A vector lies along the first dimension, or as a row along the second.
+    const std::array<hsize_t, 2> start{source.is_row ? source.index : first, source.is_row ? first : source.index};
+    const std::array<hsize_t, 2> size{source.is_row ? 1 : count, source.is_row ? count : 1};
+    const hsize_t in_memory = count;
+    const Hdf5Handle memory(H5Screate_simple(1, &in_memory, nullptr), H5Sclose);
+    if (!from.space.valid() || !memory.valid() ||
+        H5Sselect_hyperslab(from.space.id(), H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr) < 0 ||
+        H5Dread(from.dataset.id(), H5T_NATIVE_DOUBLE, memory.id(), from.space.id(), H5P_DEFAULT, out) < 0) {
+      refuse_damaged(source, first);
+    }
+  }
 
   // `info` is what H5Ovisit2 gives: H5O_info_t, which HDF5 1.12 and later call H5O_info1_t.
   static herr_t visit(hid_t file, const char* name, const auto* info, void* table) {
@@ -160,18 +126,25 @@ class Hdf5Table final : public VectorTable {
       const double begin_s = number_attribute(dataset.id(), "wf_start_offset", 0.0);
       if (std::isfinite(begin_s)) column.wave = EvenTimes(begin_s, step_s);
     }
-    const std::optional<ClockTime> start = step_s > 0 ? start_attribute(dataset.id()) : std::nullopt;
+    column.unapplied = unapplied_attributes(dataset.id(), path);
+    const std::optional<ClockTime> start = step_s > 0           ? start_attribute(dataset.id(), "wf_start_time")
+                                           : named_time(column) ? start_of_group(file_id, path)
+                                                                : std::nullopt;
     if (start && (!origin_ || start->since(*origin_) < 0)) origin_ = start;
     for (MatrixPart& part : matrix_parts(column, size[0], size[1])) {
       sources_.push_back({path, rank, part.is_row, part.index});
-      listed_.emplace_back(std::move(part.vector), start);
+      listed_.push_back({std::move(part.vector), start});
     }
   }
 
-  /// Times of all waveforms count from the earliest instant that one of them states.
+  /// The times of all waveforms and groups count from the earliest instant that one of them states.
   void add_listed() {
-    for (auto& [vector, start] : listed_) {
-      if (start && !vector.column.wave.empty()) {
+    for (std::size_t k = 0; k < listed_.size(); ++k) {
+      auto& [vector, start] = listed_[k];
+      if (start && vector.column.wave.empty()) {
+        const auto unit = units::unit_named(unit_of_time(vector.column));
+        sources_[k].later = start->since(*origin_) / (unit ? unit->factor : 1);
+      } else if (start) {
         const EvenStretch stated = vector.column.wave.stretches().front();
         vector.column.wave = EvenTimes(stated.begin_s + start->since(*origin_), stated.step_s);
       }
@@ -198,15 +171,27 @@ class Hdf5Table final : public VectorTable {
     out.space = Hdf5Handle(H5Dget_space(out.dataset.id()), H5Sclose);
     out.scale = number_attribute(out.dataset.id(), "scale_factor", 1.0);
     out.offset = number_attribute(out.dataset.id(), "add_offset", 0.0);
+    for (const char* const name : {"_FillValue", "missing_value"}) {
+      if (const auto fill = optional_number_attribute(out.dataset.id(), name)) out.fills.push_back(*fill);
+    }
+    if (source.later > 0 && counts_from_its_start(column, out)) out.offset += source.later;
     return out;
+  }
+
+  /// Times that begin elsewhere than at 0 may count from another instant than their group's start.
+  bool counts_from_its_start(std::size_t column, const Dataset& from) {
+    std::array<double, 2> times{};
+    if (length(column) < times.size()) return false;
+    read_stored(sources_[column], from, 0, times.size(), times.data());
+    return std::abs(times[0]) <= std::abs(times[1] - times[0]);
   }
 
   Hdf5Handle file_handle_;
   std::vector<Source> sources_;
   std::map<std::size_t, Dataset> datasets_;  ///< of the chosen columns
   std::vector<UnreadPart> unread_;
-  std::vector<std::pair<Vector, std::optional<ClockTime>>> listed_;  ///< each with its wf_start_time
-  std::optional<ClockTime> origin_;                                  ///< the earliest of them
+  std::vector<Listed> listed_;       ///< one a column
+  std::optional<ClockTime> origin_;  ///< the earliest start of them
   DeclaredSize declared_;
   std::exception_ptr failure_;  ///< of list()
 };

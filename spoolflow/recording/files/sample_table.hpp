@@ -20,6 +20,8 @@ struct FileColumn {
   std::string unit;  ///< written in the file beside the name (units row, attribute); empty where it is not
   EvenTimes wave{};  ///< as attributes of it state them; empty where none does
   std::optional<std::size_t> own_time{};  ///< the column of its times, where the file says which one that is
+  /// What the file says of its numbers that is not applied to them, with its remedy; empty: nothing.
+  std::string unapplied{};
 };
 
 /// Cells that hold text instead of a number.

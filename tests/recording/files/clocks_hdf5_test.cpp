@@ -42,12 +42,19 @@ class GroupedFile {
   }
   /// An attribute of a dataset that is there.
   GroupedFile& say(const std::string& path, const char* name, const std::string& text) {
-    const hid_t data = H5Dopen2(id_, path.c_str(), H5P_DEFAULT), space = H5Screate(H5S_SCALAR);
+    const hid_t data = H5Oopen(id_, path.c_str(), H5P_DEFAULT), space = H5Screate(H5S_SCALAR);
     const hid_t type = H5Tcopy(H5T_C_S1);
     H5Tset_size(type, text.size());
     const hid_t made = H5Acreate2(data, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
     H5Awrite(made, type, text.data());
-    H5Aclose(made), H5Tclose(type), H5Sclose(space), H5Dclose(data);
+    H5Aclose(made), H5Tclose(type), H5Sclose(space), H5Oclose(data);
+    return *this;
+  }
+  /// A numeric attribute likewise; of a group, too.
+  GroupedFile& say(const std::string& path, const char* name, double value) {
+    const hid_t object = H5Oopen(id_, path.c_str(), H5P_DEFAULT);
+    attribute(object, name, value);
+    H5Oclose(object);
     return *this;
   }
   const std::filesystem::path& close() {
@@ -121,6 +128,42 @@ TEST(ClocksOfGroups, SlowerPressureIsInterpolatedAndMissingBeyondItsEnds) {
   }
   EXPECT_THAT(run.resampled, HasSubstr("'current/current_A' (1000 Hz): 'pressure/pressure_difference_bar' from 100 Hz "
                                        "by linear interpolation, missing before 1 s and after 9 s"));
+}
+
+TEST(ClocksOfGroups, TimesOfAGroupCountFromItsStart) {
+  GroupedFile file;
+  add_current(file);
+  const auto slow_s = times(0, 0.01, 801);
+  file.add("pressure/time_ms", of(slow_s, [](double time_s) { return 1e3 * time_s; }));
+  file.add("pressure/pressure_difference_bar", of(slow_s, pressure_bar));
+  file.say("current", "start_time", "2025-01-01T10:00:00.000").say("pressure", "start_time", "2025-01-01T10:00:00.500");
+  const Recording run = read(file);
+  EXPECT_TRUE(std::isnan(run[Channel::pressure_difference][499]));
+  EXPECT_NEAR(run[Channel::pressure_difference][1505], 1e5 * pressure_bar(1.005), 1e-3);
+}
+
+TEST(AttributesOfHdf5, AFillValueIsAMissingSample) {
+  GroupedFile file;
+  add_current(file);
+  std::vector<double> pressure(10000, 60);
+  pressure[17] = -999, pressure[18] = -1;
+  file.add("current/pressure_difference_bar", pressure);
+  file.say("current/pressure_difference_bar", "_FillValue", -999.0);
+  file.say("current/pressure_difference_bar", "missing_value", -1.0);
+  const Recording run = read(file);
+  EXPECT_NEAR(run[Channel::pressure_difference][16], 60e5, 1e-3);
+  EXPECT_TRUE(std::isnan(run[Channel::pressure_difference][17]));
+  EXPECT_TRUE(std::isnan(run[Channel::pressure_difference][18]));
+}
+
+TEST(AttributesOfHdf5, AScaleThatIsNotAppliedIsSaid) {
+  GroupedFile file;
+  add_current(file);
+  file.add("current/pressure_difference_bar", std::vector<double>(10000, 60));
+  file.say("current/current_A", "gain", 1.25).say("current/position_mm", "gain", 1.0);
+  EXPECT_EQ(read(file).resampled,
+            "'current/current_A' has the attribute gain = 1.25, which is not applied: if its numbers are still to be "
+            "scaled by it, call it scale_factor, or give scale in a channel map");
 }
 
 TEST(ClocksOfGroups, FasterPressureIsTheMeanOverTheCurrentsTimeStep) {
