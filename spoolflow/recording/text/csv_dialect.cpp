@@ -148,7 +148,6 @@ CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file,
   CsvDialect dialect;
   std::string_view rest = beginning;
   if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);
-
   refuse_other_kinds_of_text(rest, file);
   if (TwincatSettings twincat = take_twincat_settings(rest, file); twincat.lines > 0) {
     constexpr std::size_t least_cells = 2;  // a time and its number

@@ -40,7 +40,8 @@ bool pair_times(std::vector<FileColumn>& columns) {
   for (const std::size_t time : times) {
     if (time == first) continue;
     const bool numbered = less_number(columns[time]) == less_number(columns[first]);
-    if (numbered && time + 1 < columns.size() && !is_time(time + 1)) again.push_back(time);
+    const bool between = !is_time(time - 1) && time + 1 < columns.size() && !is_time(time + 1);
+    if (numbered && between) again.push_back(time);
     if (numbered || is_letter_without_unit(columns[time])) continue;
     for (std::size_t k = 0; k < columns.size(); ++k) {
       if (!is_time(k) && !own[k] && carries_name(columns[time], columns[k])) own[k] = time;
