@@ -73,6 +73,67 @@ void add_induced_voltage(std::vector<Deviation>& to, const MagneticCurves& curve
                 .file = file_of(map)});
 }
 
+/// A map's flow or flow force, as the logarithm over that of all.
+struct MapPlace {
+  double temperature_K, log_ratio;
+};
+struct Slopes {
+  double least_per_K, most_per_K;
+};
+
+/// How far map `k` stands from the lines of usual slope on which the others are; NaN where they are on none.
+double apart(const std::vector<MapPlace>& maps, std::size_t k, const Slopes& slopes) {
+  constexpr int tried = 31;
+  double out = std::nan("");
+  for (int step = 0; step < tried; ++step) {
+    const double slope = slopes.least_per_K + (slopes.most_per_K - slopes.least_per_K) * step / (tried - 1);
+    const auto level = [&](const MapPlace& map) {
+      return map.log_ratio - slope * (map.temperature_K - maps[k].temperature_K);
+    };
+    double least = impossible, most = -impossible;
+    for (std::size_t other = 0; other < maps.size(); ++other) {
+      if (other == k) continue;
+      least = std::min(least, level(maps[other]));
+      most = std::max(most, level(maps[other]));
+    }
+    if (most - least > 2 * maps_alike) continue;
+    const double off = maps[k].log_ratio - (least + most) / 2;
+    if (!(std::abs(off) >= std::abs(out))) out = off;
+  }
+  return out;
+}
+
+/// The map that least makes all agree, if it stood where the others say.
+void add_apart(std::vector<Deviation>& to, const char* of, const std::vector<MapPlace>& maps, const Slopes& slopes,
+               const std::vector<const Recording*>& recordings) {
+  std::vector<double> off;
+  for (const MapPlace& map : maps) {
+    if (!std::isfinite(map.temperature_K + map.log_ratio)) return;
+  }
+  for (std::size_t k = 0; k < maps.size(); ++k) off.push_back(apart(maps, k, slopes));
+  std::size_t odd = 0;
+  for (std::size_t k = 1; k < off.size(); ++k) {
+    if (!(std::abs(off[odd]) <= std::abs(off[k])) && !std::isnan(off[k])) odd = k;
+  }
+  for (std::size_t k = 0; k < off.size(); ++k) {
+    to.push_back({.of = fmt::format("{} over what the other axial-force maps have at the same opening, pressure "
+                                    "difference and oil temperature",
+                                    of),
+                  .shown = fmt::format("{:.3g}", std::exp(off[k])),
+                  .over_limit = k == odd && !std::isnan(off[k]) ? std::abs(off[k]) / map_share : 0,
+                  .file = file_of(*recordings[k]),
+                  .blocks = std::isnan(off[k]) ? 0.0 : 1.0});
+  }
+}
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0, count = 0;
+  for (const double value : values) {
+    if (std::isfinite(value)) sum += value, ++count;
+  }
+  return sum / count;
+}
+
 }  // namespace
 
 void add_hydraulic_deviations(std::vector<Deviation>& to, const HydraulicCurves& curves, const Recording* spring,
@@ -111,6 +172,20 @@ void add_hydraulic_deviations(std::vector<Deviation>& to, const HydraulicCurves&
                   .over_limit = factor_over(ratio, 1, set_pressure_factor),
                   .file = file_of(*map)});
   }
+}
+
+void add_map_deviations(std::vector<Deviation>& to, const HydraulicCurves& curves,
+                        const std::vector<const Recording*>& maps) {
+  if (maps.size() < 2) return;
+  std::vector<MapPlace> flow, flow_force;
+  for (const Recording* map : maps) {
+    const MapRatios ratios = map_ratios(curves, *map);
+    const double temperature_K = mean_of(map->column(Channel::oil_temperature));
+    flow.push_back({temperature_K, std::log(ratios.flow)});
+    flow_force.push_back({temperature_K, std::log(ratios.flow_force)});
+  }
+  add_apart(to, "flow", flow, {least_flow_per_K, most_flow_per_K}, maps);
+  add_apart(to, "flow force", flow_force, {least_flow_force_per_K, most_flow_force_per_K}, maps);
 }
 
 void add_magnetic_deviations(std::vector<Deviation>& to, const MagneticCurves& curves, const Recording& map) {

@@ -12,6 +12,11 @@ namespace spoolflow::plausibility {
 void add_hydraulic_deviations(std::vector<Deviation>& to, const HydraulicCurves& curves,
                               const recording::Recording* spring, const std::vector<const recording::Recording*>& maps);
 
+/// Of two axial-force maps and more at oil temperatures of their own: flow and flow force change with the temperature
+/// along one line, little, and no map stands apart.
+void add_map_deviations(std::vector<Deviation>& to, const HydraulicCurves& curves,
+                        const std::vector<const recording::Recording*>& maps);
+
 /// Of the solenoid's force map: it pulls, more with more current, over the stroke.
 void add_magnetic_deviations(std::vector<Deviation>& to, const MagneticCurves& curves, const recording::Recording& map);
 

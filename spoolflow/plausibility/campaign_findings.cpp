@@ -60,6 +60,7 @@ class Trial {
     const std::vector<const Recording*> maps = all(Role::axial_map);
     std::vector<Deviation> out;
     add_hydraulic_deviations(out, hydraulics_, first(Role::spring), maps);
+    add_map_deviations(out, hydraulics_, maps);
     add_rated_flow_deviation(out, hydraulics_, rated_flow_m3_per_s);
     if (map != nullptr) add_magnetic_deviations(out, magnetics_, *map);
     std::vector<const Recording*> coils = all(Role::dynamic);

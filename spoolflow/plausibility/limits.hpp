@@ -2,10 +2,16 @@
 /// Limits of the relations, above what valves A and W and the rig's valves have, worn ones among them.
 namespace spoolflow::plausibility {
 
-inline constexpr double force_residual_share = 0.06;      ///< of the range of forces
-inline constexpr double flow_residual_share = 0.04;       ///< of the largest flow
-inline constexpr double usual_jet_momentum = 0.35;        ///< nearly cos 69 deg; notches and compensated spools differ
-inline constexpr double jet_momentum_factor = 2.5;        ///< either way
+inline constexpr double force_residual_share = 0.06;  ///< of the range of forces
+inline constexpr double flow_residual_share = 0.04;   ///< of the largest flow
+inline constexpr double usual_jet_momentum = 0.35;    ///< nearly cos 69 deg; notches and compensated spools differ
+inline constexpr double jet_momentum_factor = 2.5;    ///< either way
+inline constexpr double map_share = 0.05;             ///< of one axial-force map over what the others make of its oil,
+inline constexpr double maps_alike = 0.01;            ///< once these are on one line over temperature
+inline constexpr double least_flow_per_K = -5e-4;     ///< share; oils of 30 to 70 degC have 1.5e-4 to 1.4e-3
+inline constexpr double most_flow_per_K = 2.5e-3;
+inline constexpr double least_flow_force_per_K = -5e-3;  ///< share; such oils have -3.4e-3 to -3e-5
+inline constexpr double most_flow_force_per_K = 5e-4;
 inline constexpr double set_pressure_factor = 1.4;        ///< either way
 inline constexpr double rated_flow_factor = 3;            ///< either way: makers rate at 10 or 70 bar
 inline constexpr double resistance_factor = 1.45;         ///< in one campaign: copper is so much higher 115 K warmer
@@ -14,6 +20,8 @@ inline constexpr double balance_share = 0.06;             ///< of the range of a
 inline constexpr double balance_frictions = 1.3;          ///< half widths of the spool's friction
 inline constexpr double run_flow_factor = 1.13;           ///< either way
 inline constexpr double run_flow_residual_share = 0.05;   ///< of the largest flow
+inline constexpr double least_end_of_strokes = 0.85;      ///< of the stroke: where all bench strokes end; sound ones
+inline constexpr double most_end_of_strokes = 1.08;       ///< end at 0.995 to 1.007
 inline constexpr double outside_share = 0.1;              ///< of positions beyond the stroke, and
 inline constexpr double outside_share_of_carriage = 0.6;  ///< where a carriage moves the armature
 inline constexpr double shortest_metered_s = 2.5;         ///< five lags of the slowest meter

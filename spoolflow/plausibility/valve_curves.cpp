@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <numeric>
 
+#include "spoolflow/numerics/median.hpp"
 #include "spoolflow/plausibility/block_means.hpp"
+#include "spoolflow/plausibility/limits.hpp"
 #include "spoolflow/plausibility/sparse_fit.hpp"
 
 namespace spoolflow::plausibility {
@@ -172,6 +175,35 @@ HydraulicCurves fit_hydraulics(const Recording* spring, const std::vector<const 
   fit_flows(out, maps);
   out.jet_momentum_share = momentum_share(out, maps, density_kg_per_m3);
   return out;
+}
+
+MapRatios map_ratios(const HydraulicCurves& curves, const Recording& map) {
+  constexpr double from_stroke = 0.3, from_pressure = 0.2;
+  std::vector<double> flows;
+  each_flow({&map}, [&](double position_m, double pressure_Pa, double flow) {
+    const double expected = curves.conductance_at(position_m) * std::sqrt(pressure_Pa);
+    const bool open = position_m > from_stroke * curves.stroke_m && expected > 0;
+    if (open && pressure_Pa > from_pressure * curves.highest_pressure_Pa) flows.push_back(flow / expected);
+  });
+  enum : std::uint8_t { flow_force, spring, friction, unknowns };
+  SparseFit fit(unknowns);
+  const std::vector<double> velocity = velocities(map);
+  const double least = moving_speed(velocity);
+  const std::vector<double>& position_m = map.column(Channel::position);
+  const std::vector<double>& force_N = map.column(Channel::axial_force);
+  const std::vector<double>& pressure_Pa = map.column(Channel::pressure_difference);
+  double blocks = 0;
+  for (std::size_t k = 0; k < velocity.size() && !force_N.empty() && !pressure_Pa.empty(); ++k) {
+    if (std::abs(velocity[k]) <= least || !std::isfinite(force_N[k] + position_m[k] + pressure_Pa[k])) continue;
+    const std::array<Weight, unknowns> row{Weight{flow_force, curves.force_per_Pa_at(position_m[k]) * pressure_Pa[k]},
+                                           Weight{spring, curves.spring_at(position_m[k])},
+                                           Weight{friction, std::copysign(1.0, velocity[k])}};
+    fit.add(row, force_N[k]);
+    ++blocks;
+  }
+  const bool enough = static_cast<double>(flows.size()) >= least_blocks;
+  return {enough ? numerics::median(std::move(flows)) : std::nan(""),
+          blocks >= least_blocks ? fit.solve()[flow_force] : std::nan("")};
 }
 
 double MagneticCurves::at(double current_A, double position_m) const {

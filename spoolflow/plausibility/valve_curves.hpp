@@ -36,6 +36,14 @@ struct HydraulicCurves {
                                              const std::vector<const recording::Recording*>& maps, double stroke_m,
                                              double density_kg_per_m3);
 
+/// What a map has over the curves of all, at the same opening and pressure difference; NaN where too few blocks show
+/// it.
+struct MapRatios {
+  double flow, flow_force;
+};
+/// `map` is block means.
+[[nodiscard]] MapRatios map_ratios(const HydraulicCurves& curves, const recording::Recording& map);
+
 /// Of the solenoid's force map: force over current and position (paper Figs 6 to 8), both directions averaged.
 struct MagneticCurves {
   double stroke_m = 0;

@@ -1,5 +1,7 @@
 /// A campaign that cannot be is named with file, channel and cause; a sound one raises nothing.
+#include <algorithm>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -153,6 +155,27 @@ TEST(CampaignFindings, NameEachOfThirtyRecordingErrorsAndNothingOnASoundValve) {
 
 TEST(CampaignFindings, DISABLED_NameEachErrorOfAnotherValve) {
   expect_each_error_named("size_10", 7, "ramp_25bar.csv");
+}
+
+TEST(CampaignFindings, NameTheAxialForceMapThatContradictsTheOthers) {
+  RigBenches valve = rig_benches("size_10", 31);
+  for (const char* file : {"axial_force_map_30.csv", "axial_force_map_70.csv"}) {
+    valve.recordings[file] = valve.recordings.at("axial_force_map_50.csv");
+    valve.recordings.at(file).file = file;
+  }
+  EXPECT_THAT(all_texts(campaign_findings(valve.benches())), testing::IsEmpty());
+  for (const auto& [channel, of] :
+       {std::pair{Channel::flow, "flow over what"}, std::pair{Channel::axial_force, "flow force over what"}}) {
+    for (const double factor : {1.1, 0.9, 1.2}) {
+      std::vector<double>& column = valve.recordings.at("axial_force_map_30.csv").column(channel);
+      const std::vector<double> kept = column;
+      for (double& value : column) value *= factor;
+      const std::vector<Finding> found = campaign_findings(valve.benches());
+      EXPECT_THAT(all_texts(found), testing::HasSubstr(fmt::format("axial_force_map_30.csv: {}", of)));
+      EXPECT_TRUE(std::ranges::any_of(found, &Finding::cannot_be));
+      column = kept;
+    }
+  }
 }
 
 TEST(CampaignFindings, NameAReferenceThatIsTwoSecondsLateInTheCampaignsRun) {
