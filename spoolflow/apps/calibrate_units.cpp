@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -12,10 +14,12 @@
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/apps/work/readable_model.hpp"
+#include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/type/calibrate_unit.hpp"
 #include "spoolflow/calibration/type/series.hpp"
 #include "spoolflow/calibration/type/several_units.hpp"
 #include "spoolflow/calibration/type/type_model.hpp"
+#include "spoolflow/model/sha256.hpp"
 #include "spoolflow/report/series/series_report.hpp"
 
 namespace spoolflow::apps {
@@ -77,12 +81,27 @@ void print_series(const calibration::Series& series) {
     say("  Cpk from {} units of the type on: fewer do not show it\n", calibration::least_for_capability);
 }
 
+/// By the checksum of a recording: the unit whose it is.
+using RecordingsOfUnits = std::map<std::string, std::filesystem::path>;
+
+/// Throws CalibrationError where one of the unit's recordings is another unit's.
+void require_own_recordings(RecordingsOfUnits& seen, const recording::Campaign& unit) {
+  for (const recording::CampaignRecording& entry : unit.recordings) {
+    const auto [other, is_new] = seen.emplace(model::sha256_of_file(entry.file), entry.file);
+    if (is_new || std::filesystem::equivalent(other->second.parent_path(), entry.file.parent_path())) continue;
+    throw calibration::CalibrationError(
+        fmt::format("{}: {} and {} are the same file, and no two units measure the same: give the unit's own recording",
+                    unit.file.string(), entry.file.string(), other->second.string()));
+  }
+}
+
 calibration::CalibratedUnit calibrate_unit(const CalibrateArguments& arguments, const CalibrationTask& task,
-                                           const model::Model& type) {
+                                           const model::Model& type, RecordingsOfUnits& seen) {
   refuse_other_kinds("calibrate", {{task.campaign, FileKind::settings}});
   const recording::Campaign campaign = recording::read_unit_campaign(
       task.campaign, calibration::valve_of_type(type),
       arguments.allow_outside ? recording::OutsideFiles::allowed : recording::OutsideFiles::refused);
+  require_own_recordings(seen, campaign);
   std::vector<std::filesystem::path> inputs = files_of(campaign);
   inputs.emplace_back(arguments.type);
   OutputFile output(task.model, inputs);
@@ -165,10 +184,11 @@ void calibrate_units(const CalibrateArguments& arguments, const std::vector<Cali
   const auto add = [&](const std::vector<calibration::UnitCalibration>& directions) {
     for (std::size_t k = 0; k < directions.size(); ++k) units[k].push_back(calibration::series_unit(directions[k]));
   };
+  RecordingsOfUnits seen;
   for (const CalibrationTask& task : tasks) {
     attempt([&] {
       try {
-        add(calibrate_unit(arguments, task, type).directions);
+        add(calibrate_unit(arguments, task, type, seen).directions);
       } catch (const calibration::ForeignUnit& foreign) {
         add(foreign.directions);
         throw;

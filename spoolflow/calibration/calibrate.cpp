@@ -71,6 +71,20 @@ plausibility::Finding without_force_map(const recording::Recording& dynamic) {
                              dynamic.file.filename().string())};
 }
 
+/// What force benches recorded over the whole stroke.
+Recordings whole_strokes(const ReadCampaign& recordings) {
+  Recordings out;
+  for (const std::string& direction : recordings.directions()) {
+    const CampaignRecordings of = recordings.of(direction);
+    if (of.flow_bench != nullptr) continue;
+    out.push_back(&of.spring);
+    for (const Recordings* maps :
+         {&of.axial_force_maps.joined, &of.axial_force_maps.inlet, &of.axial_force_maps.outlet})
+      out.insert(out.end(), maps->begin(), maps->end());
+  }
+  return out;
+}
+
 /// Throws CalibrationError where `refused` names anything.
 void refuse(const recording::Campaign& campaign, const std::string& refused) {
   if (refused.empty()) return;
@@ -97,6 +111,8 @@ std::vector<std::string> findings_about(const ReadCampaign& recordings, const re
   const Recordings runs = equal_flows ? recordings.through_centre() : Recordings{};
   std::vector<plausibility::KnownValve> paths;
   keep(plausibility::channel_findings(recordings.all()));
+  if (const auto stroke = plausibility::stroke_finding(whole_strokes(recordings), campaign.valve.stroke_m))
+    keep({*stroke});
   const std::vector<std::string> directions = refused.empty() ? recordings.directions() : std::vector<std::string>{};
   for (const std::string& direction : directions) {
     for (const recording::Recording* unused : recordings.unused(direction)) keep({without_force_map(*unused)});

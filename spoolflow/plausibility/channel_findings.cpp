@@ -1,6 +1,7 @@
 #include "spoolflow/plausibility/channel_findings.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include <fmt/format.h>
@@ -14,11 +15,42 @@
 #include "spoolflow/plausibility/relation.hpp"
 #include "spoolflow/plausibility/signals/coil_signals.hpp"
 #include "spoolflow/plausibility/signals/sample_grid.hpp"
+#include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::plausibility {
 
 using recording::Channel;
 using recording::Recording;
+
+namespace {
+
+/// All channels but the time, to the last digit.
+bool same_samples(const Recording& one, const Recording& other) {
+  if (one.size() == 0 || one.size() != other.size()) return false;
+  return std::ranges::all_of(recording::all_channels, [&](Channel channel) {
+    if (channel == Channel::time) return true;
+    return std::ranges::equal(one.column(channel), other.column(channel),
+                              [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); });
+  });
+}
+
+void add_repeated(std::vector<Finding>& to, const std::vector<const Recording*>& campaign) {
+  for (std::size_t k = 1; k < campaign.size(); ++k) {
+    for (std::size_t before = 0; before < k; ++before) {
+      if (!same_samples(*campaign[before], *campaign[k])) continue;
+      const std::string name = file_of(*campaign[k]), other = file_of(*campaign[before]);
+      to.push_back({true, name == other ? fmt::format("{} is named twice: name the other recording that belongs there, "
+                                                      "or take the second one out",
+                                                      name)
+                                        : fmt::format("{} and {} hold the same samples, one recording under two names: "
+                                                      "put the recording that one of them should be in its place",
+                                                      other, name)});
+      break;
+    }
+  }
+}
+
+}  // namespace
 
 std::vector<Finding> channel_findings(const std::vector<const Recording*>& campaign) {
   constexpr std::size_t most_blocks = 2500;
@@ -53,7 +85,32 @@ std::vector<Finding> channel_findings(const std::vector<const Recording*>& campa
     delay.take(recording->columns);
     if (const auto late_s = delay.late_s()) add(*recording, true, shown_delay(*late_s));
   }
+  add_repeated(out, campaign);
   return out;
+}
+
+std::optional<Finding> stroke_finding(const std::vector<const Recording*>& strokes, double stroke_m) {
+  constexpr double highest_share = 0.995, alike = 0.03;
+  std::vector<double> ends_m;
+  std::string files;
+  for (const Recording* recording : strokes) {
+    std::vector<double> position_m = recording->column(Channel::position);
+    std::erase_if(position_m, [](double value) { return !std::isfinite(value); });
+    if (position_m.empty()) continue;
+    const auto end =
+        position_m.begin() + static_cast<std::ptrdiff_t>(highest_share * static_cast<double>(position_m.size() - 1));
+    std::ranges::nth_element(position_m, end);
+    ends_m.push_back(*end);
+    files += (files.empty() ? "" : ", ") + file_of(*recording);
+  }
+  if (ends_m.size() < 2) return std::nullopt;
+  const auto [least, most] = std::ranges::minmax(ends_m);
+  if (!(most - least < alike * most)) return std::nullopt;
+  const double share = most / stroke_m;
+  if (share > least_end_of_strokes && share < most_end_of_strokes) return std::nullopt;
+  return Finding{true, fmt::format("stroke_mm under [valve] is {:.4g}, and {} all end at {:.3g} mm: correct it, or the "
+                                   "unit or scale of their position where the stroke is right",
+                                   units::mm_from_m(stroke_m), files, units::mm_from_m(most))};
 }
 
 }  // namespace spoolflow::plausibility

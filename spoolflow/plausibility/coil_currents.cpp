@@ -77,16 +77,17 @@ std::string signed_coil_currents(const Recording& means) {
         recording::name(channel_a), recording::name(channel_b), negative ? "are each other's negative" : "go together",
         together, of_a.lowest, of_a.highest, channel_a == Channel::current_a ? "A" : "V");
   }
-  const Sides of_a = sides_of(slow.column(Channel::current_a)), of_b = sides_of(slow.column(Channel::current_b));
+  const std::array currents{Channel::current_a, Channel::current_b, Channel::current};
+  std::array<Sides, currents.size()> sides;
+  std::ranges::transform(currents, sides.begin(), [&](Channel each) { return sides_of(slow.column(each)); });
   // A coil that stays off has noise on both sides of zero.
-  const double least_A = signed_current_share * std::max(of_a.largest(), of_b.largest());
-  for (const auto& [channel, sides] : {std::pair{Channel::current_a, of_a}, std::pair{Channel::current_b, of_b}}) {
-    if (!sides.both || sides.largest() < least_A) continue;
+  const double least_A = signed_current_share * std::ranges::max(sides, {}, &Sides::largest).largest();
+  for (std::size_t k = 0; k < currents.size(); ++k) {
+    if (!sides[k].both || sides[k].largest() < least_A) continue;
     return fmt::format(
         "{} goes from {:.3g} to {:.3g} A, and a coil's current has one direction: a signed current of both coils "
-        "stands in "
-        "its column; record each coil's own, each >= 0",
-        recording::name(channel), sides.lowest, sides.highest);
+        "stands in its column; record each coil's own as current_a and current_b, each >= 0",
+        recording::name(currents[k]), sides[k].lowest, sides[k].highest);
   }
   return {};
 }

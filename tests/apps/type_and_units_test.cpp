@@ -84,6 +84,16 @@ TEST_F(TypeAndUnits, ASeriesHasItsPageAndUpdatesItsType) {
   EXPECT_THAT(run("estimate models/12.json run.csv -o flow.csv").message, Not(HasSubstr("--type")));
 }
 
+TEST_F(TypeAndUnits, NoTwoUnitsOfASeriesHaveOneRecording) {
+  record_series();
+  std::filesystem::copy_file(folder / "units/11/stroke.csv", folder / "units/12/stroke.csv",
+                             std::filesystem::copy_options::overwrite_existing);
+  const Answer series = run("calibrate --type type.json units/11/unit.toml units/12/unit.toml -o models");
+  EXPECT_EQ(series.status, 2);
+  EXPECT_THAT(series.message, HasSubstr("units/12/stroke.csv and units/11/stroke.csv are the same file"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "models/12.json"));
+}
+
 TEST_F(TypeAndUnits, OfAWholeValveBothDirectionsArePlannedFittedAndComparedEachByItself) {
   std::ofstream(folder / "whole.json") << [] {
     model::Model valve = model::read_model(SPOOLFLOW_EXAMPLE_MODEL);

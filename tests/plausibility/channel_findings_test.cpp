@@ -139,5 +139,37 @@ TEST(ChannelFindings, NameOneSignedCurrentInTheColumnsOfBothCoilsOrOfOne) {
   EXPECT_THAT(all_texts(channel_findings({&one})), testing::HasSubstr("current_b goes from -"));
 }
 
+TEST(ChannelFindings, NameASignedCurrentOfBothCoilsInTheColumnOfOne) {
+  EXPECT_THAT(said_of(sound_size_10(), "ramp_25bar.csv",
+                      [](Recording& run) {
+                        std::vector<double>& current_A = run.column(Channel::current);
+                        for (std::size_t k = 0; k < current_A.size() / 2; ++k) current_A[k] *= -1;
+                      }),
+              testing::HasSubstr("record each coil's own as current_a and current_b"));
+}
+
+TEST(ChannelFindings, NameOneRecordingUnderTwoNamesAndOneNamedTwice) {
+  RigBenches valve = sound_size_10();
+  Recording& copy = valve.recordings["axial_force_map_70.csv"] = valve.recordings.at("axial_force_map_50.csv");
+  copy.file = "axial_force_map_70.csv";
+  EXPECT_THAT(all_texts(channel_findings(valve.all())),
+              testing::HasSubstr("axial_force_map_50.csv and axial_force_map_70.csv hold the same samples"));
+  copy.file = "axial_force_map_50.csv";
+  EXPECT_THAT(all_texts(channel_findings(valve.all())), testing::HasSubstr("axial_force_map_50.csv is named twice"));
+}
+
+TEST(ChannelFindings, NameAStrokeAtWhichNoBenchRecordingEnds) {
+  const RigBenches& valve = sound_size_10();
+  const std::vector<const Recording*> strokes{&valve.recordings.at("spring.csv"),
+                                              &valve.recordings.at("axial_force_map_50.csv")};
+  EXPECT_FALSE(stroke_finding(strokes, valve.stroke_m).has_value());
+  for (const double factor : {10.0, 1.25, 0.8}) {
+    const auto found = stroke_finding(strokes, factor * valve.stroke_m);
+    ASSERT_TRUE(found.has_value()) << factor;
+    EXPECT_THAT(found->text, testing::HasSubstr(fmt::format("stroke_mm under [valve] is {:.4g}, and spring.csv",
+                                                            units::mm_from_m(factor * valve.stroke_m))));
+  }
+}
+
 }  // namespace
 }  // namespace spoolflow::plausibility
