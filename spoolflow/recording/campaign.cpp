@@ -50,11 +50,22 @@ bool simulated_of(const TomlTable& table) {
   return origin == "simulated";
 }
 
+/// A number that no valve or oil has, beside what may be meant.
+void require_range(const TomlTable& table, std::string_view key, std::optional<double> value, double lowest,
+                   double highest, std::string_view otherwise) {
+  if (!value || (*value >= lowest && *value <= highest)) return;
+  throw RecordingError(fmt::format("{}: {} = {:g} is not between {:g} and {:g}; {}", table.place(key), key, *value,
+                                   lowest, highest, otherwise));
+}
+
 CampaignValve valve_of(const TomlTable& table) {
   table.allow_only({"name", "rated_flow_L_min", "stroke_mm", "direction", "origin"});
   CampaignValve valve{table.text("name"), units::m3_per_s_from_L_per_min(table.positive("rated_flow_L_min")),
                       units::m_from_mm(table.positive("stroke_mm")), direction_of(table).value_or("b"),
                       simulated_of(table)};
+  constexpr double least_flow = 0.05, most_flow = 10000;  // [L/min]
+  require_range(table, "rated_flow_L_min", table.number("rated_flow_L_min"), least_flow, most_flow,
+                "give it in L/min, where it stands in m3/s times 60000, in gal/min times 3.785");
   constexpr double longest_stroke_m = 0.1;
   if (valve.stroke_m > longest_stroke_m) {
     throw RecordingError(fmt::format("{}: a stroke of {} mm is longer than any spool valve's; give it in mm",
@@ -89,12 +100,26 @@ CampaignTolerances tolerances_of(const TomlTable& table) {
 
 CampaignFluid fluid_of(const TomlTable& table) {
   table.allow_only({"name", "density_15C_kg_per_m3", "viscosity_40C_mm2_per_s", "viscosity_100C_mm2_per_s"});
+  constexpr double lightest = 500, heaviest = 2000, thinnest = 0.3, thickest = 5000;
+  require_range(table, "density_15C_kg_per_m3", table.optional_positive("density_15C_kg_per_m3"), lightest, heaviest,
+                "give it in kg/m3 (870 of mineral oil), where it stands in g/cm3 or kg/L times 1000");
   const auto viscosity = [&table](std::string_view key) -> std::optional<double> {
     const auto written = table.optional_positive(key);
+    require_range(table, key, written, thinnest, thickest,
+                  "give it in mm2/s, which is cSt (46 of ISO VG 46 at 40 degC), where it stands in m2/s times 1e6");
     return written ? std::optional(units::m2_per_s_from_mm2_per_s(*written)) : std::nullopt;
   };
-  return {table.optional_text("name").value_or(""), table.optional_positive("density_15C_kg_per_m3"),
-          viscosity("viscosity_40C_mm2_per_s"), viscosity("viscosity_100C_mm2_per_s")};
+  CampaignFluid out{table.optional_text("name").value_or(""), table.optional_positive("density_15C_kg_per_m3"),
+                    viscosity("viscosity_40C_mm2_per_s"), viscosity("viscosity_100C_mm2_per_s")};
+  if (out.viscosity_40C_m2_per_s && out.viscosity_100C_m2_per_s &&
+      !(*out.viscosity_40C_m2_per_s > *out.viscosity_100C_m2_per_s)) {
+    throw RecordingError(fmt::format(
+        "{}: viscosity_40C_mm2_per_s = {:g} is not above viscosity_100C_mm2_per_s = {:g}, and oil thins as it warms; "
+        "exchange them",
+        table.place("viscosity_40C_mm2_per_s"), table.number("viscosity_40C_mm2_per_s"),
+        table.number("viscosity_100C_mm2_per_s")));
+  }
+  return out;
 }
 
 CampaignInstruments instruments_of(const TomlTable& table) {

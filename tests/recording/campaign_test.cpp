@@ -85,6 +85,19 @@ std::string maps_with(std::initializer_list<std::string_view> keys, std::string_
   return out;
 }
 
+TEST(Campaign, RefusesNumbersThatNoValveAndNoOilHas) {
+  const auto with_fluid = [](const std::string& fluid) {
+    return refused_campaign(with_recording("protocol = \"spring\"\nfile = \"spring.csv\"\n[fluid]\n" + fluid));
+  };
+  EXPECT_THAT(with_fluid("density_15C_kg_per_m3 = 0.874\n"),
+              HasSubstr("density_15C_kg_per_m3 = 0.874 is not between 500 and 2000; give it in kg/m3"));
+  EXPECT_THAT(with_fluid("viscosity_40C_mm2_per_s = 46e-6\n"), HasSubstr("where it stands in m2/s times 1e6"));
+  EXPECT_THAT(with_fluid("viscosity_40C_mm2_per_s = 6.8\nviscosity_100C_mm2_per_s = 46\n"),
+              HasSubstr("viscosity_40C_mm2_per_s = 6.8 is not above viscosity_100C_mm2_per_s = 46"));
+  EXPECT_THAT(refused_campaign("[valve]\nname = \"A\"\nrated_flow_L_min = 0.0013\nstroke_mm = 2.4\n"),
+              HasSubstr("where it stands in m3/s times 60000"));
+}
+
 TEST(Campaign, KnowsTheEdgeThatAnAxialForceMapIsOfAndItsDirection) {
   const TemporaryFile file("campaign.toml", maps_with({"edge = \"PB\"\n", "edge = \"AT\"\ndirection = \"b\"\n",
                                                        "edge = \"PA\"\n", "edge = \"BT\"\n"},
