@@ -125,6 +125,7 @@ class ChannelReader final : public Reader {
         last_time_s_ = time_s[row];
       }
     }
+    if (notes_.rows == 0 && !runs_on_ && !infinite_is_missing_) refuse_rounded_times(block.rows);
     const auto place = [this](std::size_t row) { return table_->place(row); };
     for (std::size_t k = 0; k < bound_.size(); ++k) {
       if (bound_[k].channel == Channel::time && runs_on_) continue;
@@ -134,6 +135,19 @@ class ChannelReader final : public Reader {
       notes_.missing[index(bound_[k].channel)] += missing;
       if (!runs_on_) plausibility_.take(k, values, place);
     }
+  }
+
+  /// Most samples of the first block at the time of the one before: by such times the valve stands and jumps.
+  void refuse_rounded_times(std::size_t rows) const {
+    constexpr std::size_t fewest = 100;
+    const auto other = static_cast<double>(rows - notes_.duplicate_times);
+    if (rows < fewest || 2 * notes_.duplicate_times < rows) return;
+    const BoundColumn& column = bound_.front();
+    throw RecordingError(fmt::format(
+        "{}, column '{}': the times are rounded: {:.3g} samples have the same one on average; write them with more "
+        "digits, or, where the recorder samples evenly, number the samples and give its time step as the time's scale "
+        "in a channel map",
+        file_, column.name, static_cast<double>(rows) / other));
   }
 
   [[noreturn]] void refuse_time(std::size_t row, double time_s) const {

@@ -10,13 +10,15 @@ namespace spoolflow::units {
 namespace {
 
 // Factors of the SI brochure; psi, degF, inch, lbf, kgf and US gallons by NIST SP 811, appendix B.8.
-constexpr std::array<Unit, 40> table{{
+constexpr std::array<Unit, 42> table{{
     {"1", "1", Dimension::ratio, 1.0},
     {"percent", "percent", Dimension::ratio, 0.01},
     {"s", "s", Dimension::time, 1.0},
     {"ms", "ms", Dimension::time, 1e-3},
     {"us", "us", Dimension::time, 1e-6},
     {"ns", "ns", Dimension::time, 1e-9},
+    {"min", "min", Dimension::time, 60.0},
+    {"h", "h", Dimension::time, 3600.0},
     {"A", "A", Dimension::current, 1.0},
     {"mA", "mA", Dimension::current, 1e-3},
     {"V", "V", Dimension::voltage, 1.0},
@@ -54,7 +56,7 @@ constexpr std::array<Unit, 40> table{{
 }};
 
 // Other spellings, in small letters, after plain() has brought them to ASCII.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 97> spellings{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 101> spellings{{
     {"-", "1"},
     {"%", "percent"},
     {"pct", "percent"},
@@ -65,6 +67,10 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 97> spelling
     {"milliseconds", "ms"},
     {"microseconds", "us"},
     {"nsec", "ns"},
+    {"minute", "min"},
+    {"minutes", "min"},
+    {"hour", "h"},
+    {"hours", "h"},
     {"nanoseconds", "ns"},
     {"amp", "A"},
     {"ampere", "A"},

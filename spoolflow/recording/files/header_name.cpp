@@ -104,8 +104,8 @@ std::string_view without_joints(std::string_view stem) {
 
 /// Whether a word of a name can only be meant as a unit.
 bool is_unit_word(std::string_view word) {
-  constexpr std::array<std::string_view, 9> several_meanings{"in",   "second", "meter", "metre", "mil",
-                                                             "thou", "-",      "lb",    "kp"};
+  constexpr std::array<std::string_view, 10> several_meanings{"in",   "second", "meter", "metre", "mil",
+                                                              "thou", "-",      "lb",    "kp",    "min"};
   constexpr std::array<std::string_view, 5> letters{"s", "V", "N", "K", "m"};
   if (word.size() == 1) return std::ranges::count(letters, word) > 0;
   const bool number = word.find_first_not_of("0123456789.") == std::string_view::npos;

@@ -19,6 +19,7 @@ namespace {
 constexpr std::size_t block_bytes = std::size_t{256} << 10;
 constexpr std::size_t longest_line = std::size_t{4} << 20;
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+constexpr std::string_view infinity_sign = "\xE2\x88\x9E";
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -192,7 +193,7 @@ double CsvTable::cell_value(std::string_view cell, std::size_t column, std::size
     return clock->day == 0 ? past_midnight(clock->since(*clock_origin_), slot) : clock->since(*clock_origin_);
   }
   if (const auto plain = without_groups(cell); plain && plain->may_be_of(point_)) return plain->value;
-  if (infinite_passes_ && digits == Digits::not_finite) {
+  if (infinite_passes_ && (digits == Digits::not_finite || cell.find(infinity_sign) != std::string_view::npos)) {
     return cell.find('-') == std::string_view::npos ? infinity : -infinity;
   }
   const Suffix suffix = read_measured(cell, point_, units_[slot], value);
@@ -205,6 +206,12 @@ double CsvTable::cell_value(std::string_view cell, std::size_t column, std::size
   const std::string place =
       fmt::format("{}, line {}, column '{}'", input_->name(), line_, dialect_.columns[column].name);
   const std::string shown = shortened(cell);
+  if (cell.find(infinity_sign) != std::string_view::npos) {
+    throw RecordingError(fmt::format(
+        "{}: '{}' is what PicoScope writes where a channel is saturated; widen its range and record it again, or leave "
+        "the cell empty",
+        place, shown));
+  }
   if (digits == Digits::not_finite) {
     throw RecordingError(
         fmt::format("{}: '{}' is not finite; leave the cell empty where a sample is missing", place, shown));
