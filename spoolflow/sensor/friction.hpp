@@ -103,10 +103,10 @@ SPOOLFLOW_INLINE constexpr T presliding_half_width_N(const FrictionParameters<T>
   return friction.contact_stiffness_N_per_m * (sensor.backlash_m + deadband_m);
 }
 
-/// How far the contacts give way elastically under what they held some milliseconds ago [m].
+/// How far the contacts give way elastically under what they held some milliseconds ago [m]; endless without stiffness.
 template <class T>
 SPOOLFLOW_INLINE constexpr T elastic_m(const FrictionParameters<T>& friction, const FrictionState<T>& state) {
-  return magnitude(state.held_N) / larger(friction.contact_stiffness_N_per_m, T(1));
+  return magnitude(state.held_N) / friction.contact_stiffness_N_per_m;
 }
 
 /// To be called before the first sample, with its position: how long the spool has been at rest is not known.
