@@ -33,9 +33,7 @@ struct ActuatorState {
   CoilResistanceState<T> coil_resistance{};
   T lowest_flux_Wb{};  ///< since the first sample
   T highest_flux_Wb{};
-  T unknown_memory_A{};       ///< what the unknown history leaves open for long: stops of large thresholds, which
-                              ///< remember longest, answer least; with ...
-  T uncertainty_N{};          ///< ... uncertainty of the magnetic force and ...
+  T uncertainty_N{};          ///< of the magnetic force and ...
   T friction_half_width_N{};  ///< ... the armature's friction, as they were when they were last computed
 };
 
@@ -64,17 +62,12 @@ constexpr void widen_flux_range(ActuatorState<T>& state) {
   state.highest_flux_Wb = larger(state.highest_flux_Wb, flux_Wb);
 }
 
-/// What the unknown history before the first sample may still mean, as a share of what it meant then: a swing of twice
-/// the largest threshold wipes it out.
+/// What the unknown history before the first sample may still mean for the current [A], one standard deviation: a swing
+/// of twice the largest threshold wipes it out.
 template <class T>
-constexpr T unknown_memory_share(const ActuatorParameters<T>& actuator, const ActuatorState<T>& state) {
-  return at_least_zero(T(1) - (state.highest_flux_Wb - state.lowest_flux_Wb) * actuator.per_wiping_flux);
-}
-
-/// Variance of the force [N2] that the unknown history leaves open, common to all samples.
-template <class T>
-SPOOLFLOW_INLINE constexpr T unknown_memory_N2(const ActuatorState<T>& state, T force_per_current_N_per_A) {
-  return squared(state.unknown_memory_A * force_per_current_N_per_A);
+constexpr T unknown_memory_A(const ActuatorParameters<T>& actuator, const ActuatorState<T>& state) {
+  const T left = T(1) - (state.highest_flux_Wb - state.lowest_flux_Wb) * actuator.per_wiping_flux;
+  return at_least_zero(left) * actuator.coercive_current_A;
 }
 
 /// Diagnosis of the coil by its voltage, from the same sample as the step before it; a NaN or a coil whose resistance
@@ -111,11 +104,8 @@ SPOOLFLOW_INLINE constexpr void judge_force(const ActuatorParameters<T>& actuato
                                             const Cell<T>& current, const Cell<T>& position,
                                             T force_per_current_N_per_A, T eddy_A) {
   widen_flux_range(state);
-  const T unknown_share = unknown_memory_share(actuator, state);
-  const T unknown_A = unknown_share * actuator.coercive_current_A;
-  state.unknown_memory_A = unknown_share * unknown_A;
-  const T current_variance_A2 =
-      squared(actuator.current_uncertainty_A) + squared(actuator.eddy_uncertainty * eddy_A) + squared(unknown_A);
+  const T current_variance_A2 = squared(actuator.current_uncertainty_A) + squared(actuator.eddy_uncertainty * eddy_A) +
+                                squared(unknown_memory_A(actuator, state));
   state.uncertainty_N =
       sqrt(squared(actuator.force_uncertainty_N) + squared(force_per_current_N_per_A) * current_variance_A2);
   state.friction_half_width_N = actuator.friction_N.at(current, position).value;

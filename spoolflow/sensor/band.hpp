@@ -167,15 +167,15 @@ SPOOLFLOW_INLINE constexpr T within_both_Pa(const EdgePoint<T>& edge, T per_open
   return pressure_deviation_Pa(edge, bound_N / sqrt(T(1) + squared(bound_N) * per_open_1_N2));
 }
 
-/// After the update of the pressure difference; `displaced_ratio` as below `motion_deviation_N`, `common_N2` the
-/// variance of force errors that are common to many samples. At rest both what is open and how far friction's interval
-/// and the uncertainty of its bounds reach limit the error: each side lies below either.
+/// After the update of the pressure difference; `displaced_ratio` as below `motion_deviation_N`. At rest both what is
+/// open and how far friction's interval and the uncertainty of its bounds reach limit the error: each side lies below
+/// either.
 template <class T>
 SPOOLFLOW_INLINE constexpr PressureHalfWidths<T> pressure_half_widths(const BandParameters<T>& band,
                                                                       const PressureState<T>& pressure,
                                                                       const ForceBalance<T>& balance, T rest_s,
                                                                       T velocity_m_per_s, T displaced_ratio,
-                                                                      T common_N2) {
+                                                                      T environment_N) {
   const T share = balance.sliding ? band.force_share : band.rest_share;
   const T slope = balance.edge.flow_force_per_pressure_N_Pa;
   const T unobserved_N2 = squared(slope * unobserved_change_Pa(pressure, band.unobserved_factor));
@@ -183,7 +183,7 @@ SPOOLFLOW_INLINE constexpr PressureHalfWidths<T> pressure_half_widths(const Band
   T open_N2 = squared(factor) * (unobserved_N2 + squared(share * balance.noise_N));
   if (balance.sliding || balance.dithered)
     open_N2 += squared(motion_deviation_N(balance, velocity_m_per_s, displaced_ratio));
-  open_N2 += squared(band.coverage_factor) * common_N2;
+  open_N2 += squared(band.coverage_factor * environment_N);
   const T open_Pa = pressure_deviation_Pa(balance.edge, sqrt(open_N2));
   PressureHalfWidths<T> widths{open_Pa, open_Pa, T(0)};
   // The mean of friction over a period of dither has bounds in slips, too.
@@ -191,7 +191,7 @@ SPOOLFLOW_INLINE constexpr PressureHalfWidths<T> pressure_half_widths(const Band
   if (bounded) {
     open_N2 += squared(T(constrained_correction_factor) * slope * pressure.constrained_correction_Pa);
     const T bounds_N = band.force_share * balance.noise_N + bounds_deviation_N(band, rest_s);
-    const T certain_N = band.coverage_factor * sqrt(squared(bounds_N) + common_N2);
+    const T certain_N = band.coverage_factor * sqrt(squared(bounds_N) + squared(environment_N));
     const T upper_N = at_least_zero(balance.resting.upper_N - balance.residual_force_N);
     const T lower_N = at_least_zero(balance.residual_force_N - balance.resting.lower_N);
     const T per_open_1_N2 = T(1) / open_N2;

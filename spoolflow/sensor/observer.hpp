@@ -148,11 +148,9 @@ SPOOLFLOW_INLINE constexpr void follow_half_widths(const ObserverParameters<T>& 
                                             balance.spool_friction_N + balance.armature_friction_N},
                       {state.oil.temperature_K, pressure.pressure_difference_Pa, position.position_m, current_A,
                        pressure.breakaway_Pa});
-  const T common_N2 = squared(state.force_errors.environment_N) +
-                      unknown_memory_N2(state.actuator, balance.actuator.force_per_current_N_per_A);
-  pressure.half_widths =
-      pressure_half_widths(valve.band, pressure, balance, state.friction.rest_s, position.velocity_m_per_s,
-                           displaced_ratio(valve.pressure, pressure, valve.friction.operation_ratio), common_N2);
+  pressure.half_widths = pressure_half_widths(
+      valve.band, pressure, balance, state.friction.rest_s, position.velocity_m_per_s,
+      displaced_ratio(valve.pressure, pressure, valve.friction.operation_ratio), state.force_errors.environment_N);
 }
 
 /// Flow rate of this instant at the expected pressure difference, with its band; paper section 3.

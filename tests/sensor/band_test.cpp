@@ -76,7 +76,7 @@ struct RestingSpool {
   [[nodiscard]] PressureBand<double> band() const {
     const PressureHalfWidths<double> reach =
         pressure_half_widths(parameters.band, pressure, balance, 3.0, 0.0,
-                             displaced_ratio(parameters.pressure, pressure, calibrated_ratio), squared(environment_N));
+                             displaced_ratio(parameters.pressure, pressure, calibrated_ratio), environment_N);
     return pressure_band(pressure, reach, 1000e5);
   }
 
