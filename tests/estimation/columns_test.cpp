@@ -124,9 +124,10 @@ TEST_P(Sensors, AnswerEverySampleOnceHoweverTheColumnsAreCut) {
     ASSERT_EQ(cut[k].flow_upper_m3_per_s, expected[k].flow_upper_m3_per_s) << k;
     if (run.time_s[k] > 4.5) judged.add(cut[k], run.flow_m3_per_s[k], full_scale_m3_per_s());
   }
-  // The tables hold both valves exactly. Left over is what noise does to the observer.
-  EXPECT_LT(judged.rms(), observer() ? 1.1e-3 : 1e-9);
-  EXPECT_LT(judged.largest, observer() ? 5e-3 : 1e-9);
+  // The tables hold both valves exactly. Left over is what noise does to the observer, and the history of the iron,
+  // which it does not know: these strokes do not wipe it out.
+  EXPECT_LT(judged.rms(), observer() ? 1.5e-3 : 1e-9);
+  EXPECT_LT(judged.largest, observer() ? 7e-3 : 1e-9);
 }
 
 TEST_P(Sensors, AnswerZeroWithTheWholeRangeAsBandBeforeTheFirstCompleteSample) {

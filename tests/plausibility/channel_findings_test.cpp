@@ -142,8 +142,10 @@ TEST(ChannelFindings, NameOneSignedCurrentInTheColumnsOfBothCoilsOrOfOne) {
 TEST(ChannelFindings, NameASignedCurrentOfBothCoilsInTheColumnOfOne) {
   EXPECT_THAT(said_of(sound_size_10(), "ramp_25bar.csv",
                       [](Recording& run) {
-                        std::vector<double>& current_A = run.column(Channel::current);
-                        for (std::size_t k = 0; k < current_A.size() / 2; ++k) current_A[k] *= -1;
+                        for (const Channel channel : {Channel::current, Channel::position}) {
+                          std::vector<double>& values = run.column(channel);
+                          for (std::size_t k = 0; k < values.size() / 2; ++k) values[k] *= -1;
+                        }
                       }),
               testing::HasSubstr("record each coil's own as current_a and current_b"));
 }

@@ -36,6 +36,7 @@ constexpr std::size_t fewest_idle_blocks = 10;
 constexpr double zero_current_share = 0.006;  ///< of the largest current; sound runs have 0.05 %
 constexpr double most_driven_share = 0.25;    ///< of the current, by the voltage that is left
 constexpr double signed_share = 0.05;         ///< of the largest current, and of the blocks on either side
+constexpr double least_signal_A = 0.05;       ///< no solenoid of a spool valve moves it with less
 constexpr double supply_range = 0.05;         ///< of the supply's voltage
 constexpr std::size_t fewest_supply_blocks = 40;
 constexpr double supply_block_s = 0.25;      ///< some five time constants of a coil
@@ -201,7 +202,9 @@ std::string current_without_mean(const Recording& run) {
   if (means.size() == 0 || !run.has(Channel::position)) return {};
   const auto [lowest_m, highest_m] = std::ranges::minmax(run.column(Channel::position));
   if (!(highest_m > 0) || lowest_m < -signed_share * highest_m) return {};  // the current of both coils
-  const double least_A = signed_share * largest(means.current_A);
+  const double largest_A = largest(means.current_A);
+  if (largest_A < least_signal_A) return {};  // noise of a coil that stays off
+  const double least_A = signed_share * largest_A;
   double above = 0, below = 0, sum_A = 0;
   for (const double value : means.current_A) {
     above += value > least_A;
