@@ -17,7 +17,7 @@ import sys
 import judge
 from judging_set import option
 
-PROGRAMMES = ("ramp", "slide", "duty", "rest")
+PROGRAMMES = ("ramp", "duty")
 
 
 def judged(job):
