@@ -16,4 +16,11 @@ namespace spoolflow::numerics {
   return *middle;
 }
 
+/// The value below which that share of all lies, of at least one; none is NaN.
+[[nodiscard]] inline double quantile(std::vector<double> values, double share) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
 }  // namespace spoolflow::numerics

@@ -126,14 +126,6 @@ void add_apart(std::vector<Deviation>& to, const char* of, const std::vector<Map
   }
 }
 
-double mean_of(const std::vector<double>& values) {
-  double sum = 0, count = 0;
-  for (const double value : values) {
-    if (std::isfinite(value)) sum += value, ++count;
-  }
-  return sum / count;
-}
-
 }  // namespace
 
 void add_hydraulic_deviations(std::vector<Deviation>& to, const HydraulicCurves& curves, const Recording* spring,
@@ -180,7 +172,7 @@ void add_map_deviations(std::vector<Deviation>& to, const HydraulicCurves& curve
   std::vector<MapPlace> flow, flow_force;
   for (const Recording* map : maps) {
     const MapRatios ratios = map_ratios(curves, *map);
-    const double temperature_K = mean_of(map->column(Channel::oil_temperature));
+    const double temperature_K = mean_of_numbers(map->column(Channel::oil_temperature));
     flow.push_back({temperature_K, std::log(ratios.flow)});
     flow_force.push_back({temperature_K, std::log(ratios.flow_force)});
   }

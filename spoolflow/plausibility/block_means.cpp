@@ -32,7 +32,8 @@ std::vector<std::size_t> stretches(std::span<const double> time_s) {
   return out;
 }
 
-/// Of those that are numbers, at least half of all.
+}  // namespace
+
 double mean_of_numbers(std::span<const double> values) {
   double sum = 0;
   std::size_t count = 0;
@@ -43,8 +44,6 @@ double mean_of_numbers(std::span<const double> values) {
   }
   return 2 * count >= values.size() && count > 0 ? sum / static_cast<double>(count) : std::nan("");
 }
-
-}  // namespace
 
 std::vector<double> longer_blocks(std::span<const double> time_s, std::span<const double> values) {
   const std::vector<std::size_t> begins = stretches(time_s);

@@ -16,6 +16,9 @@ namespace spoolflow::plausibility {
 /// current that happens to stand still nor a sample's noise counts as the valve's.
 inline constexpr double shortest_block_s = 0.025;
 
+/// Of those that are numbers, NaN where they are less than half of all.
+[[nodiscard]] double mean_of_numbers(std::span<const double> values);
+
 /// Rows that lie within a stretch of shortest_block_s made one: the means of those that are numbers, NaN where most are
 /// none. Rows that stand for longer stay as they are.
 [[nodiscard]] recording::Recording longer_blocks(const recording::Recording& means);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/numerics/median.hpp"
 #include "spoolflow/plausibility/block_means.hpp"
 #include "spoolflow/plausibility/clipped_channel.hpp"
 #include "spoolflow/plausibility/coil_currents.hpp"
@@ -97,10 +98,7 @@ std::optional<Finding> stroke_finding(const std::vector<const Recording*>& strok
     std::vector<double> position_m = recording->column(Channel::position);
     std::erase_if(position_m, [](double value) { return !std::isfinite(value); });
     if (position_m.empty()) continue;
-    const auto end =
-        position_m.begin() + static_cast<std::ptrdiff_t>(highest_share * static_cast<double>(position_m.size() - 1));
-    std::ranges::nth_element(position_m, end);
-    ends_m.push_back(*end);
+    ends_m.push_back(numerics::quantile(position_m, highest_share));
     files += (files.empty() ? "" : ", ") + file_of(*recording);
   }
   if (ends_m.size() < 2) return std::nullopt;

@@ -81,16 +81,22 @@ std::string signed_coil_currents(const Recording& means) {
   std::array<Sides, currents.size()> sides;
   std::ranges::transform(currents, sides.begin(), [&](Channel each) { return sides_of(slow.column(each)); });
   // A coil that stays off has noise on both sides of zero.
-  const double least_A = signed_current_share * std::ranges::max(sides, {}, &Sides::largest).largest();
-  // A spool that keeps to one side has one coil at work: its current lacks its mean (signals/coil_signals.hpp).
+  const double largest_A = std::ranges::max(sides, {}, &Sides::largest).largest();
+  const double least_A = std::max(signed_current_share * largest_A, least_signed_A);
   const std::vector<double>& position_m = slow.column(Channel::position);
   const bool one_coil = !position_m.empty() && !sides_of(position_m).both;
   for (std::size_t k = 0; k < currents.size(); ++k) {
-    if (!sides[k].both || sides[k].largest() < least_A || (currents[k] == Channel::current && one_coil)) continue;
-    return fmt::format(
-        "{} goes from {:.3g} to {:.3g} A, and a coil's current has one direction: a signed current of both coils "
-        "stands in its column; record each coil's own as current_a and current_b, each >= 0",
-        recording::name(currents[k]), sides[k].lowest, sides[k].highest);
+    if (!sides[k].both || sides[k].largest() < least_A) continue;
+    const std::string goes =
+        fmt::format("{} goes from {:.3g} to {:.3g} A", recording::name(currents[k]), sides[k].lowest, sides[k].highest);
+    if (currents[k] == Channel::current && one_coil)
+      return fmt::format(
+          "{}, {:.3g} A on average, while the spool keeps to one side, and a coil's current has one direction: an "
+          "input that is AC-coupled, or a high-pass, takes its mean away; switch it to DC and record it again",
+          goes, mean_of_numbers(slow.column(Channel::current)));
+    return goes +
+           ", and a coil's current has one direction: a signed current of both coils stands in its column; record each "
+           "coil's own as current_a and current_b, each >= 0";
   }
   return {};
 }

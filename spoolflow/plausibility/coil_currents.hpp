@@ -1,5 +1,5 @@
 #pragma once
-/// Both coils of a whole valve: each has its own current, which flows in one direction.
+/// A coil's current flows in one direction, and each of a whole valve's coils has its own.
 #include <string>
 
 #include "spoolflow/recording/recording.hpp"
@@ -7,7 +7,8 @@
 namespace spoolflow::plausibility {
 
 /// One signal stands in the columns of both coils (they go together, or are each other's negative), or a coil's current
-/// (`current` alone, too) goes to both sides of zero. `means` in blocks. Empty: neither.
+/// (`current` alone, too) goes to both sides of zero: of both coils, or without its mean where the spool keeps to one
+/// side. `means` in blocks. Empty: neither.
 [[nodiscard]] std::string signed_coil_currents(const recording::Recording& means);
 
 }  // namespace spoolflow::plausibility

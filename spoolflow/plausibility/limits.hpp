@@ -42,6 +42,7 @@ inline constexpr double shortest_round_oil_s = 180;   ///< one of 0.5 K or 1 K d
 inline constexpr double fewest_oil_changes = 20;      ///< that the campaign's thermometer shows in such a time
 inline constexpr double one_signal_correlation = 0.98;  ///< of both coils; sound runs have -0.9 to -0.8
 inline constexpr double signed_current_share = 0.1;     ///< of the largest current
+inline constexpr double least_signed_A = 0.05;          ///< no solenoid of a spool valve moves it with less
 inline constexpr double signed_blocks_share = 0.05;     ///< of a run on either side of zero
 inline constexpr double longest_shift_s = 10;           ///< between two recorders that is looked for
 inline constexpr double longest_shift_block_s = 0.5;    ///< coarser blocks show none

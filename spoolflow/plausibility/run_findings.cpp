@@ -296,8 +296,8 @@ std::vector<Finding> run_findings(const std::vector<KnownValve>& valve, const Ru
                                       run.gaps().longest_from_s)});
   }
   RunTrial trial(valve, run.means(file));
-  for (const std::string& dead : {dead_channel(trial.run, trial.stroke_m()), signed_coil_currents(trial.run),
-                                  frozen_channel(trial.run), current_without_mean(trial.run)}) {
+  for (const std::string& dead :
+       {dead_channel(trial.run, trial.stroke_m()), signed_coil_currents(trial.run), frozen_channel(trial.run)}) {
     if (dead.empty()) continue;
     out.push_back({true, fmt::format("{}: {}", name, dead)});
     return out;

@@ -14,6 +14,7 @@
 
 #include "spoolflow/plausibility/block_means.hpp"
 #include "spoolflow/plausibility/channel_findings.hpp"
+#include "spoolflow/plausibility/coil_currents.hpp"
 #include "spoolflow/plausibility/run_findings.hpp"
 #include "tests/plausibility/example_campaign.hpp"
 #include "tests/plausibility/finding_texts.hpp"
@@ -48,7 +49,7 @@ TEST(CoilSignals, OfSoundRecordingsSayNothing) {
     const Recording means = in_blocks(recording);
     EXPECT_THAT(resistance_leaps(means), IsEmpty()) << file;
     EXPECT_THAT(currents_without_voltage(means), IsEmpty()) << file;
-    EXPECT_THAT(current_without_mean(means), IsEmpty()) << file;
+    EXPECT_THAT(signed_coil_currents(means), IsEmpty()) << file;
     EXPECT_THAT(supply_voltage(means), IsEmpty()) << file;
   }
   EXPECT_THAT(resistance_leaps(in_blocks(duty_cycle())), IsEmpty());
@@ -135,7 +136,16 @@ TEST(CurrentWithoutMean, IsNamedAsAnInputThatIsCoupledByAC) {
   for (const double constant_s : {0.3, 3.0, 30.0}) {
     const std::string found = findings_of(ac_coupled(ramp(), constant_s));
     EXPECT_THAT(found, AllOf(HasSubstr("AC-coupled"), Not(HasSubstr("position looks")))) << constant_s;
+    const Recording coupled = ac_coupled(ramp(), constant_s);
+    EXPECT_THAT(all_texts(channel_findings({&coupled})), HasSubstr("AC-coupled")) << constant_s;
   }
+}
+
+TEST(CurrentWithoutMean, IsNoneOfTheNoiseOfACoilThatStaysOff) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> noise_A(0, 1e-3);
+  const Recording off = with_current(ramp(), [&](double, std::size_t) { return noise_A(random); });
+  EXPECT_THAT(signed_coil_currents(in_blocks(off)), IsEmpty());
 }
 
 TEST(SupplyVoltage, IsNamedAsSuchAndNotAsAWrongUnit) {

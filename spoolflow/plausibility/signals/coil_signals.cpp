@@ -35,8 +35,6 @@ constexpr double settling_s = 0.3;           ///< some ten time constants of a c
 constexpr std::size_t fewest_idle_blocks = 10;
 constexpr double zero_current_share = 0.006;  ///< of the largest current; sound runs have 0.05 %
 constexpr double most_driven_share = 0.25;    ///< of the current, by the voltage that is left
-constexpr double signed_share = 0.05;         ///< of the largest current, and of the blocks on either side
-constexpr double least_signal_A = 0.05;       ///< no solenoid of a spool valve moves it with less
 constexpr double supply_range = 0.05;         ///< of the supply's voltage
 constexpr std::size_t fewest_supply_blocks = 40;
 constexpr double supply_block_s = 0.25;      ///< some five time constants of a coil
@@ -49,11 +47,11 @@ struct Means {
   [[nodiscard]] std::size_t size() const { return begin_s.size(); }
 };
 
-/// Without `voltage` its means are zero.
-Means means_of(const Recording& run, Channel current, std::optional<Channel> voltage, double block_s) {
+Means means_of(const Recording& run, Channel current, Channel voltage, double block_s) {
   Means out;
-  if (!run.has(Channel::time) || !run.has(current) || (voltage && !run.has(*voltage))) return out;
-  const std::vector<double>&time_s = run.column(Channel::time), &current_A = run.column(current);
+  if (!run.has(Channel::time) || !run.has(current) || !run.has(voltage)) return out;
+  const std::vector<double>&time_s = run.column(Channel::time), &current_A = run.column(current),
+        &voltage_V = run.column(voltage);
   double begin_s = NAN, sum_A = 0, sum_V = 0, count = 0;
   const auto close = [&] {
     if (count > 0) {
@@ -68,10 +66,9 @@ Means means_of(const Recording& run, Channel current, std::optional<Channel> vol
       close();
       begin_s = time_s[k];
     }
-    const double now_V = voltage ? run.column(*voltage)[k] : 0;
-    if (!std::isfinite(current_A[k] + now_V)) continue;
+    if (!std::isfinite(current_A[k] + voltage_V[k])) continue;
     sum_A += current_A[k];
-    sum_V += now_V;
+    sum_V += voltage_V[k];
     ++count;
   }
   close();
@@ -82,13 +79,6 @@ double largest(std::span<const double> values) {
   double out = 0;
   for (const double value : values) out = std::max(out, std::abs(value));
   return out;
-}
-
-/// Value below which a share of all lies; not of none.
-double quantile(std::vector<double> values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
 }
 
 struct Resistances {
@@ -197,36 +187,12 @@ std::vector<std::string> currents_without_voltage(const Recording& run) {
   return out;
 }
 
-std::string current_without_mean(const Recording& run) {
-  const Means means = means_of(run, Channel::current, std::nullopt, short_block_s);
-  if (means.size() == 0 || !run.has(Channel::position)) return {};
-  const auto [lowest_m, highest_m] = std::ranges::minmax(run.column(Channel::position));
-  if (!(highest_m > 0) || lowest_m < -signed_share * highest_m) return {};  // the current of both coils
-  const double largest_A = largest(means.current_A);
-  if (largest_A < least_signal_A) return {};  // noise of a coil that stays off
-  const double least_A = signed_share * largest_A;
-  double above = 0, below = 0, sum_A = 0;
-  for (const double value : means.current_A) {
-    above += value > least_A;
-    below += value < -least_A;
-    sum_A += value;
-  }
-  const auto count = static_cast<double>(means.size());
-  if (std::min(above, below) < signed_share * count) return {};
-  const auto [lowest_A, highest_A] = std::ranges::minmax(means.current_A);
-  return fmt::format(
-      "current goes from {:.3g} to {:.3g} A, {:.3g} A on average, while the spool keeps to one side, and a coil's "
-      "current has one direction: an input that is AC-coupled, or a high-pass, takes its mean away; switch it to DC "
-      "and record it again",
-      lowest_A, highest_A, sum_A / count);
-}
-
 std::string supply_voltage(const Recording& run) {
   for (const auto& [current, voltage] : coils) {
     const Means means = means_of(run, current, voltage, supply_block_s);
     if (means.size() < fewest_supply_blocks) continue;
     const auto [lowest_V, highest_V] = std::ranges::minmax(means.voltage_V);
-    const double low_A = quantile(means.current_A, 0.05), high_A = quantile(means.current_A, 0.95);
+    const double low_A = numerics::quantile(means.current_A, 0.05), high_A = numerics::quantile(means.current_A, 0.95);
     if (!(lowest_V > 0) || highest_V - lowest_V > supply_range * highest_V ||
         high_A < least_current_ratio * std::max(low_A, 0.0) || !(high_A > 0))
       continue;

@@ -1,6 +1,6 @@
 #pragma once
-/// Current and voltage of a coil that no coil has: a scale that leaps, a zero that is off, a mean that is taken away, a
-/// voltage that is another one's.
+/// Current and voltage of a coil that no coil has: a scale that leaps, a zero that is off, a voltage that is another
+/// one's.
 #include <string>
 #include <vector>
 
@@ -16,9 +16,6 @@ namespace spoolflow::plausibility {
 /// A sentence for each coil whose current settles beyond 0.6 % of its largest value where it has had no voltage for
 /// 0.3 s, for half a second together at least, and no such voltage drives that current.
 [[nodiscard]] std::vector<std::string> currents_without_voltage(const recording::Recording& means);
-
-/// One sentence where the current of a single coil goes to both sides of zero while its spool does not. Empty: none.
-[[nodiscard]] std::string current_without_mean(const recording::Recording& means);
 
 /// One sentence where a coil's voltage keeps within 5 % while its current goes by a factor of 1.5 and more: the
 /// supply's. Empty: none.
