@@ -160,7 +160,7 @@ std::vector<std::string> flow_bench_contradictions(const ReadCampaign& recording
 
 InOperation in_operation(const model::Valve& valve, const EquivalentBenches* flow_bench) {
   return {valve.rated_flow_m3_per_s, flow_bench != nullptr,
-          flow_bench != nullptr && !flow_bench->axial_force_was_measured};
+          flow_bench != nullptr && !flow_bench->axial_force_was_measured, valve.moving_mass_kg.has_value()};
 }
 
 }  // namespace
@@ -240,7 +240,12 @@ model::Model calibrate(const recording::Campaign& campaign, const std::string& t
   provenance.simulated = campaign.valve.simulated;
   provenance.doubts = findings_about(recordings, campaign, contradictions);
   provenance.doubts.insert(provenance.doubts.begin(), on_flow_bench.begin(), on_flow_bench.end());
-  model::Valve valve{campaign.valve.name, campaign.valve.rated_flow_m3_per_s, campaign.valve.stroke_m, direction};
+  model::Valve valve{.name = campaign.valve.name,
+                     .rated_flow_m3_per_s = campaign.valve.rated_flow_m3_per_s,
+                     .stroke_m = campaign.valve.stroke_m,
+                     .direction = direction,
+                     .open_stop_m = campaign.valve.open_stop_m,
+                     .moving_mass_kg = campaign.valve.moving_mass_kg};
   if (campaign.load.area_ratio != 1) valve.load_area_ratio = campaign.load.area_ratio;
   model::Model out =
       whole ? calibrate_whole_valve(recordings.of("b"), recordings.of("a"), recordings.through_centre(), valve, fitting)

@@ -71,6 +71,7 @@ class Rows {
     add_of_operation("friction at rest", "friction_ageing_ratio");
     add_of_operation("contact stiffness", "contact_stiffness_N_per_m");
     add_of_operation("backlash of the position sensor", "position_backlash_m");
+    if (model_.valve.moving_mass_kg) return add("moving mass", measured, "moving_mass_g of campaign.toml", "1", {});
     add_of_operation("moving mass", "moving_mass_kg");
   }
 

@@ -149,7 +149,8 @@ model::BenchResiduals residuals_on_bench(const BenchFits& fits, double stroke_m)
 }
 
 /// With what only operation shows as assumed.
-sensor::ObserverParameters<double> parameters_from(const BenchFits& fits, double closed_below_m) {
+sensor::ObserverParameters<double> parameters_from(const BenchFits& fits, const model::Valve& valve,
+                                                   double closed_below_m) {
   sensor::ObserverParameters<double> out{};
   out.actuator = fits.actuator.actuator;
   out.spring = fits.spring.spring;
@@ -168,8 +169,9 @@ sensor::ObserverParameters<double> parameters_from(const BenchFits& fits, double
               .unobserved_factor = 2.4};
   out.inlet = fits.axial.inlet;
   out.unsettled_load_share = fits.axial.equal_flows ? 0 : unsettled_cylinder_share;
-  out.moving_mass_kg = assumed_moving_mass_kg;
+  out.moving_mass_kg = valve.moving_mass_kg.value_or(assumed_moving_mass_kg);
   out.closed_below_m = closed_below_m;
+  if (valve.open_stop_m) out.stopped_above_m = stopped_above_m(*valve.open_stop_m);
   out.largest_current_A = fits.magnetic.largest_current_A;
   return out;
 }
@@ -235,13 +237,18 @@ void assume_operation(model::Observer& observer) {
 
 }  // namespace
 
+double stopped_above_m(double open_stop_m) {
+  constexpr double tolerance_m = 20e-6;  // zero and temperature of a position sensor
+  return open_stop_m - tolerance_m;
+}
+
 ObserverCalibration calibrate_on_bench(const ObserverRecordings& recordings, const model::Valve& valve,
                                        double closed_below_m) {
   const BenchFits fits = fit_bench(recordings, valve.stroke_m);
   ObserverCalibration calibration{};
   calibration.bench = residuals_on_bench(fits, valve.stroke_m);
   model::Observer& out = calibration.observer;
-  out.parameters = parameters_from(fits, closed_below_m);
+  out.parameters = parameters_from(fits, valve, closed_below_m);
   out.parameters.largest_voltage_V =
       std::max(largest_voltage_V(recordings.solenoid_force_map),
                recordings.flow_bench != nullptr ? recordings.flow_bench->largest_voltage_V : 0);
@@ -291,6 +298,7 @@ void calibrate_in_operation(model::Observer& observer, const std::vector<Operati
   } else {
     assume_operation(observer);
   }
+  if (valve.mass_is_declared) std::erase(observer.defaults, "moving_mass_kg");
   observer.defaults.insert(observer.defaults.end(), of_bench.begin(), of_bench.end());
 }
 

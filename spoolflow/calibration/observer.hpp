@@ -26,6 +26,9 @@ struct ObserverCalibration {
   model::BenchResiduals bench;
 };
 
+/// Position above which the spool counts as on its open stop [m], where the position shows `open_stop_m` there.
+[[nodiscard]] double stopped_above_m(double open_stop_m);
+
 /// Bench maps free of position drift; what only operation shows is taken as assumed. `closed_below_m` is the condensed
 /// model's. Throws CalibrationError.
 [[nodiscard]] ObserverCalibration calibrate_on_bench(const ObserverRecordings& recordings, const model::Valve& valve,

@@ -20,6 +20,16 @@ void describe_valve(Valve& valve, Visitor&& visitor) {
                   .limits = {0.1, 10},
                   .meaning = "piston area at port A over that at port B; absent for equal flows over both edges"},
                  valve.load_area_ratio);
+  visitor.number({.key = "open_stop_m",
+                  .unit = "m",
+                  .limits = {1e-5, 0.3},
+                  .meaning = "position where the spool meets its open stop; absent: none is known"},
+                 valve.open_stop_m);
+  visitor.number({.key = "moving_mass_kg",
+                  .unit = "kg",
+                  .limits = {1e-3, 100},
+                  .meaning = "spool, push rod and armature together; absent: found or assumed, see the observer"},
+                 valve.moving_mass_kg);
 }
 
 /// visitor.number(Parameter, optional number) of each; `Instruments` may be const.

@@ -307,6 +307,12 @@ void describe_observer(Parameters& parameters, Visitor&& visitor) {
   visitor.number(
       {.key = "closed_below_m", .unit = "m", .limits = {-1e-3, 0.1}, .meaning = "positions below this count as closed"},
       parameters.closed_below_m);
+  visitor.number({.key = "stopped_above_m",
+                  .unit = "m",
+                  .limits = {0, sensor::no_open_stop_m},
+                  .meaning = "positions above this count as on the open stop; 1: none is known",
+                  .otherwise = sensor::no_open_stop_m},
+                 parameters.stopped_above_m);
   visitor.number({.key = "largest_current_A",
                   .unit = "A",
                   .limits = {0, 1e3},

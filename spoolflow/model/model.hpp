@@ -23,6 +23,8 @@ struct Valve {
   double stroke_m;
   std::string direction;                    ///< "b": flow P to B; "a": flow P to A; "both": the whole valve
   std::optional<double> load_area_ratio{};  ///< of the cylinder it is for, port A over port B; absent: equal flows
+  std::optional<double> open_stop_m{};     ///< what the position shows where the spool meets its open stop, as declared
+  std::optional<double> moving_mass_kg{};  ///< spool, push rod and armature together, as declared
 };
 
 /// Data-sheet values; absent where the campaign does not give them.

@@ -107,6 +107,7 @@ void apply(const Difference& difference, double stroke_m, sensor::ObserverParame
         &valve.actuator.coil.flux_linkage.map.column_axis, &valve.spring.curve.axis, &valve.edge.position_m})
     axis->first += zero_m;
   valve.closed_below_m += zero_m;
+  valve.stopped_above_m += zero_m;
 }
 
 void apply(const Difference& difference, double stroke_m, sensor::CondensedParameters<double>& valve) {

@@ -58,8 +58,18 @@ void require_range(const TomlTable& table, std::string_view key, std::optional<d
                                    lowest, highest, otherwise));
 }
 
+/// Of a valve whose stroke is known.
+std::optional<double> open_stop_of(const TomlTable& table, double stroke_m) {
+  const auto written = table.optional_positive("open_stop_mm");
+  constexpr double least_share = 0.5, most_share = 3;
+  const double stroke_mm = units::mm_from_m(stroke_m);
+  require_range(table, "open_stop_mm", written, least_share * stroke_mm, most_share * stroke_mm,
+                "give what the position channel shows in mm where the spool meets its open stop");
+  return written ? std::optional(units::m_from_mm(*written)) : std::nullopt;
+}
+
 CampaignValve valve_of(const TomlTable& table) {
-  table.allow_only({"name", "rated_flow_L_min", "stroke_mm", "direction", "origin"});
+  table.allow_only({"name", "rated_flow_L_min", "stroke_mm", "direction", "origin", "open_stop_mm", "moving_mass_g"});
   CampaignValve valve{table.text("name"), units::m3_per_s_from_L_per_min(table.positive("rated_flow_L_min")),
                       units::m_from_mm(table.positive("stroke_mm")), direction_of(table).value_or("b"),
                       simulated_of(table)};
@@ -71,12 +81,18 @@ CampaignValve valve_of(const TomlTable& table) {
     throw RecordingError(fmt::format("{}: a stroke of {} mm is longer than any spool valve's; give it in mm",
                                      table.place("stroke_mm"), units::mm_from_m(valve.stroke_m)));
   }
+  valve.open_stop_m = open_stop_of(table, valve.stroke_m);
+  constexpr double lightest_g = 2, heaviest_g = 5000, g_per_kg = 1000;
+  const auto mass_g = table.optional_positive("moving_mass_g");
+  require_range(table, "moving_mass_g", mass_g, lightest_g, heaviest_g,
+                "give spool, push rod and armature together in g, where it stands in kg times 1000");
+  if (mass_g) valve.moving_mass_kg = *mass_g / g_per_kg;
   return valve;
 }
 
 /// What a unit's [valve] may say against its type: its name, and what agrees with the type.
 CampaignValve unit_valve_of(const TomlTable& table, CampaignValve type) {
-  table.allow_only({"name", "rated_flow_L_min", "stroke_mm", "direction", "origin"});
+  table.allow_only({"name", "rated_flow_L_min", "stroke_mm", "direction", "origin", "open_stop_mm"});
   if (const auto name = table.optional_text("name")) type.name = *name;
   type.simulated = simulated_of(table);
   const auto require = [&](std::string_view key, double of_type) {
@@ -89,6 +105,7 @@ CampaignValve unit_valve_of(const TomlTable& table, CampaignValve type) {
   };
   require("rated_flow_L_min", units::L_per_min_from_m3_per_s(type.rated_flow_m3_per_s));
   require("stroke_mm", units::mm_from_m(type.stroke_m));
+  type.open_stop_m = open_stop_of(table, type.stroke_m);
   return type;
 }
 

@@ -35,8 +35,10 @@ struct CampaignValve {
   std::string name;
   double rated_flow_m3_per_s;  ///< full scale of every % FS figure
   double stroke_m;
-  std::string direction = "b";  ///< "b": flow P to B; of the recordings that do not say theirs
-  bool simulated = false;       ///< origin = "simulated": no recording of the campaign was measured
+  std::string direction = "b";             ///< "b": flow P to B; of the recordings that do not say theirs
+  bool simulated = false;                  ///< origin = "simulated": no recording of the campaign was measured
+  std::optional<double> open_stop_m{};     ///< what the position channel shows where the spool meets its open stop
+  std::optional<double> moving_mass_kg{};  ///< spool, push rod and armature together
 };
 
 /// Data-sheet values of the oil; absent where the campaign does not give them.

@@ -124,6 +124,7 @@ SPOOLFLOW_INLINE constexpr auto status(const ObserverParameters<T>& valve, const
   mark(out, balance.closed, Status::closed);
   mark(out, !balance.sliding, Status::spool_at_rest);
   mark(out, balance.dithered, Status::dithered);
+  mark(out, balance.stopped, Status::open_stop);
   mark(out, !balance.actuator.inside_map, Status::outside_force_map);
   const bool capped = is_capped(state.pressure, valve.highest_pressure_difference_Pa());
   mark(out, (!balance.edge.inside || capped) && !balance.closed, Status::outside_flow_force_map);

@@ -53,6 +53,9 @@ struct Environment {
   T highest_pressure_Pa{};  ///< pressure difference up to which the model answers, at least the calibrated one
 };
 
+/// No spool gets there [m]: the open stop of a valve of which none is known.
+inline constexpr double no_open_stop_m = 1;
+
 /// Everything about one valve that the observer needs; trivially copyable, fit for constexpr flash.
 template <class T>
 struct ObserverParameters {
@@ -68,6 +71,7 @@ struct ObserverParameters {
                              ///< over the change still to settle; 0 where both edges always pass the load's flows
   T moving_mass_kg{};        ///< spool, push rod and armature together
   T closed_below_m{};
+  T stopped_above_m{no_open_stop_m};  ///< positions above this count as on the open stop
   T largest_current_A{};
   T largest_voltage_V{};  ///< of the coil, as calibration saw it; 0: not known. The step reads no limit from it.
   CurrentLimits<T> current_limits;

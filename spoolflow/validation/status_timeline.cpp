@@ -58,6 +58,8 @@ const char* meaning(sensor::Status bit) {
       return "More flow force than the supply explains: a load may drive the oil, and the flow be larger.";
     case Status::flow_reversed:
       return "By the pressures at the ports a load drives the oil against the way that the spool opens.";
+    case Status::open_stop:
+      return "The spool stands on its open stop, which may hold what flow force does not: the flow may be smaller.";
     case Status::position_fault:
       return "The position signal moved as no spool can; the last credible position was used. Look at its wiring.";
     case Status::sample_missing:

@@ -51,6 +51,9 @@ TEST(KnownQuantities, OnForceBenchesEveryForceIsMeasured) {
   EXPECT_DOUBLE_EQ(of(rows, "friction at rest").uncertainty_95.value(), 0.25);
   EXPECT_EQ(of(rows, "moving mass").how, "assumed");
   EXPECT_FALSE(of(rows, "moving mass").uncertainty_95);
+  model.valve.moving_mass_kg = 0.3;
+  const auto declared = known_quantities({spring, map, {&map}, {{&cold, &warm}, {}, {}, 1, {}}, {}, nullptr}, model);
+  EXPECT_EQ(of(declared, "moving mass").from, "moving_mass_g of campaign.toml");
 }
 
 TEST(KnownQuantities, OnAFlowBenchOnlyWhatItsMetersShowIsMeasured) {

@@ -98,6 +98,21 @@ TEST(Campaign, RefusesNumbersThatNoValveAndNoOilHas) {
               HasSubstr("where it stands in m3/s times 60000"));
 }
 
+TEST(Campaign, MayDeclareTheOpenStopAndTheMovingMass) {
+  const auto of_valve = [](const std::string& lines) {
+    return std::string(valve) + lines + "[[recording]]\nprotocol = \"spring\"\nfile = \"spring.csv\"\n";
+  };
+  const TemporaryFile file("campaign.toml", of_valve("open_stop_mm = 2.7\nmoving_mass_g = 310\n"));
+  std::ofstream(file.folder() / "spring.csv") << "time_s\n";
+  const Campaign campaign = read_campaign(file.path());
+  EXPECT_DOUBLE_EQ(campaign.valve.open_stop_m.value(), 2.7e-3);
+  EXPECT_DOUBLE_EQ(campaign.valve.moving_mass_kg.value(), 0.31);
+  EXPECT_THAT(
+      refused_campaign(of_valve("open_stop_mm = 0.0027\n")),
+      HasSubstr("open_stop_mm = 0.0027 is not between 1.2 and 7.2; give what the position channel shows in mm"));
+  EXPECT_THAT(refused_campaign(of_valve("moving_mass_g = 0.31\n")), HasSubstr("where it stands in kg times 1000"));
+}
+
 TEST(Campaign, KnowsTheEdgeThatAnAxialForceMapIsOfAndItsDirection) {
   const TemporaryFile file("campaign.toml", maps_with({"edge = \"PB\"\n", "edge = \"AT\"\ndirection = \"b\"\n",
                                                        "edge = \"PA\"\n", "edge = \"BT\"\n"},

@@ -13,8 +13,8 @@ namespace {
 
 /// The observer over a run; what `meddle` does to a sample is what its electronics get wrong.
 template <class Each, class Meddle>
-void observe(const std::vector<ValveSample>& run, const Meddle& meddle, const Each& each) {
-  const ObserverParameters<double> parameters = closed_form_observer<double>(closed_form);
+void observe(const std::vector<ValveSample>& run, const Meddle& meddle, const Each& each,
+             const ObserverParameters<double>& parameters = closed_form_observer<double>(closed_form)) {
   ObserverState<double> state{};
   double time_s = 0;
   for (const ValveSample& sample : run) {
@@ -85,6 +85,35 @@ TEST_P(Observer, HoldsTheFlowAtRestAndItsBandHoldsWhatTheSupplyDidUnseen) {
   EXPECT_GT(resting.coverage(), 0.95);
   EXPECT_LT(resting.largest, 0.05);
   EXPECT_LT(resting.mean_width(), 0.25);  // friction's limits allow 0.3
+}
+
+TEST_P(Observer, OnTheOpenStopItsBandHoldsASupplyThatFallsUnseenAndOffItTheFlowIsFoundAgain) {
+  // The stop holds what the magnetic force has beyond friction: several times friction's limit.
+  Course course = opening();
+  const double arrives_s = course.end_s();
+  course.rest(0.2, 4).rest(0.4, 9, 15e5).rest(0.5, 9).rest(0.2, -1);
+  const double leaves_s = course.end_s();
+  course.slide(0.8e-3, 1.4);
+  ObserverParameters<double> valve = closed_form_observer<double>(closed_form);
+  valve.stopped_above_m = 2.19e-3;
+  Judgement on_stop, off_stop;
+  int marked = 0;
+  observe(
+      ClosedFormRun(closed_form, course).sampled(course.end_s(), step_s()), [](double, Sample<double>&) {},
+      [&](double time_s, const ValveSample& sample, const Estimate<double>& answer, const auto&) {
+        const bool on = time_s > arrives_s + 0.05 && time_s < leaves_s - 0.1;
+        if (on) on_stop.add(answer, sample.flow_m3_per_s, closed_form.full_scale_m3_per_s());
+        if (on && has(answer.status, Status::open_stop)) ++marked;
+        if (time_s > leaves_s + 0.5) {
+          off_stop.add(answer, sample.flow_m3_per_s, closed_form.full_scale_m3_per_s());
+          EXPECT_FALSE(has(answer.status, Status::open_stop));
+        }
+      },
+      valve);
+  EXPECT_EQ(marked, on_stop.samples);
+  EXPECT_EQ(on_stop.inside, on_stop.samples);
+  EXPECT_LT(off_stop.rms(), 0.01);
+  EXPECT_GT(off_stop.coverage(), 0.95);
 }
 
 TEST_P(Observer, FindsThePressureAgainWhenTheSpoolBreaksAway) {

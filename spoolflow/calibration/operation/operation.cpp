@@ -73,8 +73,10 @@ OperationFit fit_operation(sensor::ObserverParameters<double>& parameters, const
   const double given_freeing_share = parameters.friction.freeing_share;
   parameters.friction.freeing_share = 1;
   std::array<OperationTrial, 2> trials{OperationTrial(parameters, runs), OperationTrial(parameters, runs)};
-  const std::vector<OperationParameter> all = identifiable_parameters(trials[0], full_scale_m3_per_s);
+  std::vector<OperationParameter> all = identifiable_parameters(trials[0], full_scale_m3_per_s);
   out.not_identifiable = not_identifiable(all);
+  if (valve.mass_is_declared)
+    std::erase_if(all, [](const OperationParameter& each) { return std::string_view(each.name) == "moving_mass_kg"; });
   // An operating recording shows one supply and one oil temperature: a parameter moves only where that pays. One that
   // is known beforehand moves little.
   constexpr double pull = 0.1, pull_of_known = 3;

@@ -21,6 +21,7 @@ struct InOperation {
   double rated_flow_m3_per_s;
   bool on_flow_bench = false;      ///< some of its forces are inferred
   bool friction_is_known = false;  ///< that of sliding, from this valve as a whole
+  bool mass_is_declared = false;   ///< the moving mass is not searched for
 };
 
 /// How well the observer does on the operating recordings.

@@ -9,6 +9,7 @@
 
 #include "spoolflow/calibration/completeness.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
+#include "spoolflow/calibration/observer.hpp"
 #include "spoolflow/calibration/type/one_side.hpp"
 #include "spoolflow/calibration/type/type_model.hpp"
 #include "spoolflow/calibration/type/unit_parameters.hpp"
@@ -181,6 +182,13 @@ std::string direction_of(const recording::CampaignRecording& entry, const record
       entry.place, read.file.filename().string()));
 }
 
+/// As the unit's own position sensor shows it.
+void set_open_stop(double open_stop_m, model::Model& unit) {
+  unit.valve.open_stop_m = open_stop_m;
+  unit.observer->parameters.stopped_above_m = stopped_above_m(open_stop_m);
+  if (unit.p_to_a) unit.p_to_a->observer->parameters.stopped_above_m = stopped_above_m(open_stop_m);
+}
+
 }  // namespace
 
 recording::CampaignValve valve_of_type(const model::Model& type) {
@@ -245,6 +253,7 @@ CalibratedUnit calibrate_unit(const model::Model& type, const std::string& type_
   CalibratedUnit out =
       unit_despite(provenance.doubts, type, type_file, {unit.valve.name, unit.file.string(), std::move(runs)});
   add_edges(provenance.doubts, out);
+  if (unit.valve.open_stop_m) set_open_stop(*unit.valve.open_stop_m, out.model);
   out.model.provenance = std::move(provenance);
   progress("done", 1.0);
   return out;

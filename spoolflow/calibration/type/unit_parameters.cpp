@@ -188,9 +188,13 @@ void vary_flow_rate(sensor::FlowRate<double>& flow_rate, const Deviations& p) {
     read_axis(*axis, p);
 }
 
+/// What the unit's position sensor shows where that of the type shows `type_m`.
+double shown_m(double type_m, const Deviations& p) {
+  return type_m * (1 + p[at(Variation::position_gain)]) + p[at(Variation::position_zero)];
+}
+
 double closed_below(double type_m, const Deviations& p) {
-  return (type_m + p[at(Variation::edge_position)]) * (1 + p[at(Variation::position_gain)]) +
-         p[at(Variation::position_zero)];
+  return shown_m(type_m + p[at(Variation::edge_position)], p);
 }
 
 }  // namespace
@@ -203,6 +207,7 @@ sensor::ObserverParameters<double> unit_parameters(const sensor::ObserverParamet
   vary_edge(out.edge, deviations);
   out.friction.ageing_s *= std::exp(deviations[at(Variation::ageing_time)]);
   out.closed_below_m = closed_below(type.closed_below_m, deviations);
+  out.stopped_above_m = std::min(shown_m(type.stopped_above_m, deviations), sensor::no_open_stop_m);
   return out;
 }
 

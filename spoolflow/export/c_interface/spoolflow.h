@@ -91,6 +91,7 @@ typedef enum spoolflow_estimator {
 #define SPOOLFLOW_STATUS_SIGN_UNDETERMINED (UINT32_C(1) << 7)      /* so near the centre that the flow may go either way */
 #define SPOOLFLOW_STATUS_AMBIGUOUS_LOAD (UINT32_C(1) << 8)         /* a load may drive the oil: the flow may be larger */
 #define SPOOLFLOW_STATUS_FLOW_REVERSED (UINT32_C(1) << 9)          /* by the port pressures a load drives the oil back */
+#define SPOOLFLOW_STATUS_OPEN_STOP (UINT32_C(1) << 10)             /* the spool stands on its open stop: the flow may be smaller */
 /* Faults: an input or the model cannot be trusted. */
 #define SPOOLFLOW_STATUS_POSITION_FAULT (UINT32_C(1) << 16) /* the position moved as no spool can: the last credible one is used */
 #define SPOOLFLOW_STATUS_SAMPLE_MISSING (UINT32_C(1) << 17) /* current or position missing: the last flow is held, its band opens */

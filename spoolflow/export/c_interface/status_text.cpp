@@ -23,6 +23,7 @@ static_assert(same(SPOOLFLOW_STATUS_DITHERED, Status::dithered));
 static_assert(same(SPOOLFLOW_STATUS_SIGN_UNDETERMINED, Status::sign_undetermined));
 static_assert(same(SPOOLFLOW_STATUS_AMBIGUOUS_LOAD, Status::ambiguous_load));
 static_assert(same(SPOOLFLOW_STATUS_FLOW_REVERSED, Status::flow_reversed));
+static_assert(same(SPOOLFLOW_STATUS_OPEN_STOP, Status::open_stop));
 static_assert(same(SPOOLFLOW_STATUS_OTHER_DIRECTION, Status::other_direction));
 static_assert(same(SPOOLFLOW_STATUS_POSITION_FAULT, Status::position_fault));
 static_assert(same(SPOOLFLOW_STATUS_SAMPLE_MISSING, Status::sample_missing));
@@ -37,7 +38,7 @@ static_assert(std::string_view(SPOOLFLOW_VERSION) ==
               SPOOLFLOW_TEXT(SPOOLFLOW_VERSION_MAJOR) "." SPOOLFLOW_TEXT(SPOOLFLOW_VERSION_MINOR) "." SPOOLFLOW_TEXT(
                   SPOOLFLOW_VERSION_PATCH));
 static_assert(SPOOLFLOW_STATUS_FAULTS == spoolflow::sensor::fault_bits);
-static_assert(spoolflow::sensor::status_names.size() == 17, "a new status bit belongs into spoolflow.h, too");
+static_assert(spoolflow::sensor::status_names.size() == 18, "a new status bit belongs into spoolflow.h, too");
 
 }  // namespace
 

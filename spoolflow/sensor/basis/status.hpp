@@ -21,6 +21,7 @@ enum class Status : std::uint32_t {
   ambiguous_load = 1U << 8,  ///< more flow force than the supply explains, and no port pressures are measured: a load
                              ///< may drive the oil, and the flow be larger
   flow_reversed = 1U << 9,   ///< by the port pressures a load drives the oil against the way that the spool opens
+  open_stop = 1U << 10,      ///< the spool stands on its open stop: the flow force may be smaller, down to none
   // faults
   position_fault = 1U << 16,   ///< the position signal moved as no spool can: the last credible position is used
   sample_missing = 1U << 17,   ///< an input is missing: the last flow is held, its band opens
@@ -59,7 +60,7 @@ struct StatusName {
   const char* name;
 };
 /// The written name of each bit that sensors set, in the order in which they are listed.
-inline constexpr std::array<StatusName, 17> status_names{{
+inline constexpr std::array<StatusName, 18> status_names{{
     {Status::closed, "closed"},
     {Status::spool_at_rest, "spool_at_rest"},
     {Status::outside_force_map, "outside_force_map"},
@@ -70,6 +71,7 @@ inline constexpr std::array<StatusName, 17> status_names{{
     {Status::sign_undetermined, "sign_undetermined"},
     {Status::ambiguous_load, "ambiguous_load"},
     {Status::flow_reversed, "flow_reversed"},
+    {Status::open_stop, "open_stop"},
     {Status::position_fault, "position_fault"},
     {Status::sample_missing, "sample_missing"},
     {Status::other_direction, "other_direction"},

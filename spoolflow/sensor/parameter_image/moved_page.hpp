@@ -87,7 +87,8 @@ inline bool is_position(const PageMove& move, std::uint32_t place) {
          place == place_of(move, actuator.friction_N.column_axis.first) ||
          place == place_of(move, actuator.coil.flux_linkage.map.column_axis.first) ||
          place == place_of(move, valve.spring.curve.axis.first) ||
-         place == place_of(move, valve.edge.position_m.first) || place == place_of(move, valve.closed_below_m);
+         place == place_of(move, valve.edge.position_m.first) || place == place_of(move, valve.closed_below_m) ||
+         place == place_of(move, valve.stopped_above_m);
 }
 
 inline std::uint32_t moved_word(const PageMove& move, std::uint32_t place) {

@@ -138,6 +138,17 @@ TEST(Operation, LeavesTheMassWhereNothingIdentifiesIt) {
   EXPECT_NE(std::ranges::find(fit.not_identifiable, "moving_mass_kg"), fit.not_identifiable.end());
 }
 
+TEST(Operation, LeavesADeclaredMassUnderDitherToo) {
+  const sensor::ClosedFormValve valve;
+  const recording::Recording dithered = recorded_under_dither(valve, work());
+  sensor::ObserverParameters<double> parameters = sensor::closed_form_observer<double>(valve);
+  parameters.moving_mass_kg *= 3;
+  const double mass_kg = parameters.moving_mass_kg;
+  fit_operation(parameters, only(dithered),
+                {.rated_flow_m3_per_s = valve.full_scale_m3_per_s(), .mass_is_declared = true}, [](double) {});
+  EXPECT_EQ(parameters.moving_mass_kg, mass_kg);
+}
+
 /// 24 s of a valve in closed form at a steady pressure difference: slides, and rests under the friction they ended
 /// with.
 recording::Recording steady(const sensor::ClosedFormValve& valve) {

@@ -70,7 +70,11 @@ TEST(UnitParameters, AMorePermeableGapPullsHarderWhereIronIsUnsaturatedAndLessAt
 TEST(UnitParameters, ZeroAndGainOfThePositionSensorChangeNothingOfTheValve) {
   Deviations deviations = only(Variation::position_zero, 12e-6);
   deviations[at(Variation::position_gain)] = 0.004;
-  const sensor::ObserverParameters<double> unit = unit_parameters(observer(), deviations);
+  sensor::ObserverParameters<double> type = observer();
+  EXPECT_EQ(unit_parameters(type, deviations).stopped_above_m, sensor::no_open_stop_m);
+  type.stopped_above_m = 2.6e-3;
+  const sensor::ObserverParameters<double> unit = unit_parameters(type, deviations);
+  EXPECT_NEAR(unit.stopped_above_m, 1.004 * type.stopped_above_m + 12e-6, 1e-9);
   for (const double position_m : {0.4e-3, 1.3e-3, 2.1e-3}) {
     const double read_m = 1.004 * position_m + 12e-6;
     EXPECT_NEAR(unit.spring.at(read_m).value, observer().spring.at(position_m).value, 1e-9);
