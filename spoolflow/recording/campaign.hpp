@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "spoolflow/recording/campaign_valve.hpp"
 #include "spoolflow/recording/channel_map.hpp"
 #include "spoolflow/recording/environment.hpp"
 
@@ -30,24 +31,6 @@ inline constexpr std::array all_protocols{
 [[nodiscard]] std::string_view name(Protocol protocol);
 /// Whether it is of the valve as a whole, driven by its own solenoid, rather than of a part on a force rig.
 [[nodiscard]] bool by_own_solenoid(Protocol protocol);
-
-struct CampaignValve {
-  std::string name;
-  double rated_flow_m3_per_s;  ///< full scale of every % FS figure
-  double stroke_m;
-  std::string direction = "b";             ///< "b": flow P to B; of the recordings that do not say theirs
-  bool simulated = false;                  ///< origin = "simulated": no recording of the campaign was measured
-  std::optional<double> open_stop_m{};     ///< what the position channel shows where the spool meets its open stop
-  std::optional<double> moving_mass_kg{};  ///< spool, push rod and armature together
-};
-
-/// Data-sheet values of the oil; absent where the campaign does not give them.
-struct CampaignFluid {
-  std::string name;
-  std::optional<double> density_15C_kg_per_m3;
-  std::optional<double> viscosity_40C_m2_per_s;
-  std::optional<double> viscosity_100C_m2_per_s;
-};
 
 /// What the instruments of the bench are good for, as 95 % uncertainties in SI; absent where not given.
 struct CampaignInstruments {

@@ -9,7 +9,7 @@
 namespace spoolflow::sensor {
 
 /// Grows with every change of the sensors' structures or of this header: an image serves the version that wrote it.
-inline constexpr std::uint32_t image_layout_version = 5;
+inline constexpr std::uint32_t image_layout_version = 6;
 
 inline constexpr char image_magic[8] = {'S', 'P', 'O', 'O', 'L', 'V', 'L', 'V'};
 /// Reads as such where bytes stand in the order in which the image holds them.
