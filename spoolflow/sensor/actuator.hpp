@@ -119,8 +119,9 @@ SPOOLFLOW_INLINE constexpr ActuatorEstimate<T> step(const ActuatorParameters<T>&
                                                     const Sample<T>& sample, bool first, bool judged = true) {
   magnetise(actuator, state, sample, first);
   const auto& force_map = actuator.magnetic_force.map;
-  const Cell<T> current = locate<force_map_currents>(force_map.row_axis, state.coil.magnetising_current_A);
-  const Cell<T> position = locate<force_map_positions>(force_map.column_axis, sample.position_m);
+  bool inside = true;
+  const Cell<T> current = locate<force_map_currents>(force_map.row_axis, state.coil.magnetising_current_A, inside);
+  const Cell<T> position = locate<force_map_positions>(force_map.column_axis, sample.position_m, inside);
   const MapPoint<T> force = force_map.at(current, position);
   T force_N = force.value;
   if (judged)
@@ -132,7 +133,7 @@ SPOOLFLOW_INLINE constexpr ActuatorEstimate<T> step(const ActuatorParameters<T>&
     force_N += beyond_N;
     if (judged) state.uncertainty_N += T(saturation_share) * beyond_N;
   }
-  return {force_N, state.uncertainty_N, state.friction_half_width_N, force.row_slope, force.column_slope, force.inside};
+  return {force_N, state.uncertainty_N, state.friction_half_width_N, force.row_slope, force.column_slope, inside};
 }
 
 }  // namespace spoolflow::sensor

@@ -65,13 +65,14 @@ SPOOLFLOW_NOINLINE constexpr T environment_N(const ObserverParameters<T>& valve,
   const T widest = edge.conductance.node(0, 1, edge_positions - 1);
   const T least = larger(T(least_conductance_share) * widest, T(vanishing_conductance));
   const T off_m = sqrt(squared(environment.position_m) + squared(environment.position_share * position_m));
-  const Cell<T> row = edge.row_at(pressure_Pa);
-  const EdgePoint<T> there =
-      edge.at(edge.layer_at(at.oil_temperature_K), row, edge.column_at(position_m + off_m), pressure_Pa);
+  const auto layer_at = [&](T oil_K) { return locate<edge_temperatures>(edge.temperature_K, oil_K); };
+  const auto column_at = [&](T place_m) { return locate<edge_positions>(edge.position_m, place_m); };
+  const Cell<T> row = locate<edge_pressures>(edge.pressure_difference_Pa, pressure_Pa);
+  const EdgePoint<T> there = edge.at(layer_at(at.oil_temperature_K), row, column_at(position_m + off_m), pressure_Pa);
   const T stiffness_N_per_m = valve.spring.at(position_m).slope - effects.force_per_position_N_per_m;
   const T moved_N = edge_effect_N(effects.edge, there, pressure_Pa, least) - stiffness_N_per_m * off_m;
-  const EdgePoint<T> warmer = edge.at(edge.layer_at(at.oil_temperature_K + environment.oil_temperature_K), row,
-                                      edge.column_at(position_m), pressure_Pa);
+  const EdgePoint<T> warmer =
+      edge.at(layer_at(at.oil_temperature_K + environment.oil_temperature_K), row, column_at(position_m), pressure_Pa);
   const T warmer_N = edge_effect_N(effects.edge, warmer, pressure_Pa, least);
   const T current_N = environment.current_share * at.current_A * effects.force_per_current_N_per_A;
   const T ripple_N = effects.edge.flow_force_per_pressure_N_Pa * environment.ripple_Pa;

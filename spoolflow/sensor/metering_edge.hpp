@@ -21,8 +21,9 @@ struct EdgePoint {
   T friction_N;                    ///< half width of the spool's friction, >= 0
   T friction_per_pressure_N_Pa;    ///< its slope over the pressure difference
   T conductance;                   ///< flow over the root of the pressure difference [m3/s/sqrt(Pa)]
-  bool inside;                     ///< position and pressure difference lie within what was measured
-  bool temperature_inside;
+  bool inside = true;              ///< position and pressure difference lie within what was measured; of cells that is
+                                   ///< for who located them to say
+  bool temperature_inside = true;  ///< the same of the oil temperature
 };
 
 /// From what was measured at the highest pressure difference `measured_Pa` to a larger one: at a given opening the
@@ -59,14 +60,6 @@ struct MeteringEdge {
     return pressure_difference > highest_pressure_difference_Pa();
   }
 
-  [[nodiscard]] constexpr Cell<T> layer_at(T temperature) const {
-    return locate<edge_temperatures>(temperature_K, temperature);
-  }
-  [[nodiscard]] constexpr Cell<T> row_at(T pressure_difference) const {
-    return locate<edge_pressures>(pressure_difference_Pa, pressure_difference);
-  }
-  [[nodiscard]] constexpr Cell<T> column_at(T position) const { return locate<edge_positions>(position_m, position); }
-
   /// In the cells that hold its oil temperature, pressure difference and position.
   [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(const Cell<T>& layer, const Cell<T>& row,
                                                            const Cell<T>& column, T pressure_difference) const {
@@ -74,16 +67,18 @@ struct MeteringEdge {
     VolumePoint<T> force = flow_force_N.at(cell), friction = friction_N.at(cell);
     if (unlikely(is_beyond(pressure_difference)))
       continue_beyond(force, friction, pressure_difference, highest_pressure_difference_Pa());
-    return {force.value,
-            larger(force.row_slope, T(least_force_per_pressure_N_Pa)),
-            friction.value,
-            friction.row_slope,
-            conductance.at(cell).value,
-            row.inside && column.inside,
-            layer.inside};
+    return {force.value, larger(force.row_slope, T(least_force_per_pressure_N_Pa)), friction.value, friction.row_slope,
+            conductance.at(cell).value};
   }
   [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(T temperature, T pressure_difference, T position) const {
-    return at(layer_at(temperature), row_at(pressure_difference), column_at(position), pressure_difference);
+    bool inside = true, temperature_inside = true;
+    const Cell<T> layer = locate<edge_temperatures>(temperature_K, temperature, temperature_inside);
+    const Cell<T> row = locate<edge_pressures>(pressure_difference_Pa, pressure_difference, inside);
+    const Cell<T> column = locate<edge_positions>(position_m, position, inside);
+    EdgePoint<T> out = at(layer, row, column, pressure_difference);
+    out.inside = inside;
+    out.temperature_inside = temperature_inside;
+    return out;
   }
 };
 

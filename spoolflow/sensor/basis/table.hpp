@@ -24,7 +24,6 @@ template <class T>
 struct Cell {
   int index;
   T share;
-  bool inside;
 };
 
 /// Four neighbours, to be taken at once: their places are `number` to `number + 3`.
@@ -39,18 +38,28 @@ constexpr std::array<T, 2> two(const T* from, int number) {
   return {from[number], from[number + 1]};
 }
 
+/// How far beyond the end of an axis is still noise and no extrapolation, in cells.
+inline constexpr double noise_cells = 0.25;
+
+/// Where a value lies on an axis. `inside` is cleared where it lies outside by more than noise at an end.
+template <int Points, class T>
+constexpr Cell<T> locate(const Axis<T>& axis, T value, bool& inside) {
+  const T raw = (value - axis.first) * axis.per_spacing;
+  if (likely(within(raw, T(Points - 1)))) {
+    const int index = table_index(raw);
+    return {index, raw - T(index)};
+  }
+  if (raw > T(0)) {
+    if (!(raw <= T(Points - 1 + noise_cells))) inside = false;
+    return {Points - 2, T(1)};
+  }
+  if (!(raw >= T(-noise_cells))) inside = false;
+  return {0, T(0)};
+}
 template <int Points, class T>
 constexpr Cell<T> locate(const Axis<T>& axis, T value) {
-  const T raw = (value - axis.first) * axis.per_spacing;
-  // Noise at an end is no extrapolation.
-  const auto below_end = [&] { return raw <= T(Points - 0.75); };
-  const auto above_begin = [&] { return raw >= T(-0.25); };
-  if (within(raw, T(Points - 1))) {  // first, for it is what nearly always holds
-    const int index = table_index(raw);
-    return {index, raw - T(index), true};
-  }
-  if (raw > T(0)) return {Points - 2, T(1), below_end()};
-  return {0, T(0), above_begin()};
+  bool inside = true;
+  return locate<Points>(axis, value, inside);
 }
 
 /// A point on an axis that begins at zero, counted in cells, with the cell that holds it.
@@ -60,8 +69,6 @@ struct Place {
   int index;
 };
 
-/// How far beyond the end of an axis is still noise and no extrapolation, in cells.
-inline constexpr double noise_cells = 0.25;
 /// What is this far from an axis, in cells, was not measured.
 template <class T>
 inline constexpr T wild_cells = T(1 << 30);
@@ -123,11 +130,12 @@ struct Curve {
   Numbers<T, Points> values;
 
   [[nodiscard]] constexpr CurvePoint<T> at(T x) const {
-    const Cell<T> cell = locate<Points>(axis, x);
+    bool inside = true;
+    const Cell<T> cell = locate<Points>(axis, x, inside);
     const auto from = values.data() + cell.index;
     const auto [low, high] = two(from, 0);
     const T rise = high - low;
-    return {low + cell.share * rise, rise * axis.per_spacing, cell.inside};
+    return {low + cell.share * rise, rise * axis.per_spacing, inside};
   }
 };
 
@@ -137,7 +145,7 @@ struct MapPoint {
   T value;
   T row_slope;
   T column_slope;
-  bool inside;
+  bool inside = true;  ///< of cells that is for who located them to say
 };
 
 /// z(row, column), bilinear in each cell.
@@ -164,10 +172,15 @@ struct Map {
     const T low = low_low + column.share * low_rise;
     const T high = high_low + column.share * high_rise;
     return {low + row.share * (high - low), (high - low) * row_axis.per_spacing,
-            (low_rise + row.share * (high_rise - low_rise)) * column_axis.per_spacing, row.inside && column.inside};
+            (low_rise + row.share * (high_rise - low_rise)) * column_axis.per_spacing};
   }
   [[nodiscard]] constexpr MapPoint<T> at(T row, T column) const {
-    return at(locate<Rows>(row_axis, row), locate<Columns>(column_axis, column));
+    bool inside = true;
+    const Cell<T> row_cell = locate<Rows>(row_axis, row, inside),
+                  column_cell = locate<Columns>(column_axis, column, inside);
+    MapPoint<T> out = at(row_cell, column_cell);
+    out.inside = inside;
+    return out;
   }
 };
 
@@ -183,9 +196,10 @@ struct VolumePoint {
 template <class T>
 struct VolumeCell {
   int layer;
-  Cell<T> row;
+  int row;
   int column;
   T lower_left, lower_right, upper_left, upper_right;  ///< of the layer below and above, the column left and right
+  T row_share;
   T per_row_spacing;
 };
 
@@ -194,10 +208,9 @@ constexpr VolumeCell<T> volume_cell(const Cell<T>& layer, const Cell<T>& row, co
                                     T per_row_spacing) {
   const T upper_right = layer.share * column.share;
   const T lower_right = column.share - upper_right;
-  return {layer.index,  row,
-          column.index, T(1) - layer.share - lower_right,
-          lower_right,  layer.share - upper_right,
-          upper_right,  per_row_spacing};
+  return {
+      layer.index, row.index, column.index,   T(1) - layer.share - lower_right, lower_right, layer.share - upper_right,
+      upper_right, row.share, per_row_spacing};
 }
 
 /// z(layer, row, column), trilinear in each cell. The three axes stand beside it, for volumes that share them. All
@@ -214,7 +227,7 @@ struct Volume {
     return values[static_cast<unsigned>((row * Columns + column) * Layers + layer)];
   }
   [[nodiscard]] constexpr VolumePoint<T> at(const VolumeCell<T>& cell) const {
-    const auto place = values.data() + (cell.row.index * Columns + cell.column) * Layers + cell.layer;
+    const auto place = values.data() + (cell.row * Columns + cell.column) * Layers + cell.layer;
     const auto between = [&](int from) {
       const auto [low_left, high_left] = two(place, from);
       const auto [low_right, high_right] = two(place, from + Layers);
@@ -223,7 +236,7 @@ struct Volume {
     };
     const T low = between(0);
     const T rise = between(Layers * Columns) - low;
-    return {low + cell.row.share * rise, rise * cell.per_row_spacing};
+    return {low + cell.row_share * rise, rise * cell.per_row_spacing};
   }
 };
 
