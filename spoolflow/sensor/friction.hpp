@@ -144,7 +144,7 @@ SPOOLFLOW_INLINE constexpr void engage(FrictionState<T>& state, T moved_m, T dea
 /// Without displacement it is less and less known at which end of its backlash the sensor lies.
 template <class T>
 SPOOLFLOW_INLINE constexpr void forget_engagement(FrictionState<T>& state, T time_step_s) {
-  state.engagement *= T(1) - smaller(time_step_s * T(1 / engagement_memory_s), T(1));
+  state.engagement *= at_least_zero(T(1) - time_step_s * T(1 / engagement_memory_s));
 }
 
 /// The contacts give way. Dahl: stiffness fades towards the limit.
@@ -174,7 +174,7 @@ SPOOLFLOW_INLINE constexpr void follow_displacement(const FrictionParameters<T>&
   }
   // A spool that moves the sensor is at that end of its backlash, and holds no more than the contact bears.
   const T most_N = at_least_zero(contact.sticking_N - contact.half_width_N);
-  state.presliding_N = limited(state.presliding_N, -most_N, most_N);
+  state.presliding_N = limited_size(state.presliding_N, most_N);
 }
 
 /// In motion: friction is that of sliding, or in a slip what the forces leave; from there the next rest begins.

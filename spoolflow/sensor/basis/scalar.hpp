@@ -92,6 +92,13 @@ constexpr T magnitude(T value) {
   return value < T(0) ? -value : value;
 }
 
+/// The number, no further from zero than `most`, >= 0.
+template <class T>
+constexpr T limited_size(T value, T most) {
+  if (likely(!(magnitude(value) > most))) return value;
+  return value < T(0) ? -most : most;
+}
+
 template <class T>
 constexpr T squared(T value) {
   return value * value;

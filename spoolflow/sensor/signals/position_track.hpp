@@ -28,15 +28,14 @@ SPOOLFLOW_INLINE constexpr Motion even_travel(const Mean& mean_m, T threshold_m)
   const T before = mean_m(1);
   const T newest_m = mean_m(0) - before;
   const T size_m = magnitude(newest_m);
-  const T least_travel_m = larger(threshold_m, T(1e-12));  // more than none, without noise, too
-  if (size_m < least_travel_m) return Motion::rest;
+  if (size_m < threshold_m) return Motion::rest;
   const bool opens = newest_m > T(0);
   const T direction = opens ? T(1) : T(-1);
   const T earlier = mean_m(2);
   const T middle_m = direction * (before - earlier);
-  if (middle_m < least_travel_m) return Motion::rest;
+  if (middle_m < threshold_m) return Motion::rest;
   const T oldest_m = direction * (earlier - mean_m(3));
-  if (oldest_m < least_travel_m) return Motion::rest;
+  if (oldest_m < threshold_m) return Motion::rest;
   const T least_m = smaller(smaller(size_m, middle_m), oldest_m);
   const T longer_m = larger(middle_m, oldest_m);
   const bool uneven = larger(size_m, longer_m) > T(even_travel_ratio) * least_m + threshold_m ||
@@ -91,7 +90,7 @@ SPOOLFLOW_INLINE constexpr void follow_velocity(const PositionSensor<T>& sensor,
     const T velocity_m_per_s = (now_m - oldest_m) * (per_block_s * T(1.0 / (3 * window)));
     const T acceleration = change_m * (per_block_s * per_block_s * T(1.0 / (2 * window * window)));
     const T hardest = sensor.hardest_acceleration_m_per_s2, fastest = T(fastest_m_per_s);
-    state.acceleration_m_per_s2 = limited(acceleration, -hardest, hardest);
+    state.acceleration_m_per_s2 = limited_size(acceleration, hardest);
     state.velocity_m_per_s += (limited(velocity_m_per_s, -fastest, fastest) - state.velocity_m_per_s) * state.block_s /
                               (T(velocity_smoothing_s) + state.block_s);
   }
@@ -112,7 +111,8 @@ constexpr void follow_noise(const PositionSensor<T>& sensor, PositionNoise<T>& n
 template <class T, class Elastic>
 SPOOLFLOW_INLINE constexpr void find_motion(const PositionSensor<T>& sensor, PositionState<T>& state,
                                             const Elastic& elastic_m) {
-  const T noise_m = state.noise.times * sensor.noise_m * sqrt(T(2) * state.per_block_samples);
+  // More than none, so that a signal without noise shows no motion where there is none.
+  const T noise_m = larger(state.noise.times * sensor.noise_m * sqrt(T(2) * state.per_block_samples), T(1e-12));
   const Motion motion = even_motion(state, noise_m, elastic_m);
   const bool even = motion != Motion::rest;
   if (!even && state.blocks > short_window_blocks) {
