@@ -37,6 +37,13 @@ SPOOLFLOW_INLINE constexpr void continue_beyond(VolumePoint<T>& flow_force, Volu
   friction.value += at_least_zero(friction.row_slope) * (pressure_difference_Pa - measured_Pa);
 }
 
+/// Where an oil temperature lies between the layers of an edge.
+template <class T>
+struct OilLayer {
+  Cell<T> cell{};
+  bool inside{};  ///< within what was measured
+};
+
 /// Steady flow force (paper (2), terms 1 and 2), spool friction and flow over oil temperature [K] (layers), pressure
 /// difference [Pa] (rows) and spool position [m] (columns), measured on the axial-force rig (paper section 3, Fig 5).
 /// The flow force is the mean of both directions less the spring, the friction half their distance. Flow is kept as
@@ -60,6 +67,13 @@ struct MeteringEdge {
     return pressure_difference > highest_pressure_difference_Pa();
   }
 
+  [[nodiscard]] constexpr OilLayer<T> layer_at(T temperature) const {
+    static_assert(edge_temperatures == 3, "one bit tells the two cells apart");
+    OilLayer<T> out{{}, true};
+    out.cell = locate<edge_temperatures>(temperature_K, temperature, out.inside);
+    return out;
+  }
+
   /// In the cells that hold its oil temperature, pressure difference and position.
   [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(const Cell<T>& layer, const Cell<T>& row,
                                                            const Cell<T>& column, T pressure_difference) const {
@@ -70,15 +84,21 @@ struct MeteringEdge {
     return {force.value, larger(force.row_slope, T(least_force_per_pressure_N_Pa)), friction.value, friction.row_slope,
             conductance.at(cell).value};
   }
-  [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(T temperature, T pressure_difference, T position) const {
-    bool inside = true, temperature_inside = true;
-    const Cell<T> layer = locate<edge_temperatures>(temperature_K, temperature, temperature_inside);
+  /// The layer may be kept while the oil temperature stays. A bit that falls in its memory leads to no place outside of
+  /// the tables.
+  [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(const OilLayer<T>& layer, T pressure_difference,
+                                                           T position) const {
+    bool inside = true;
     const Cell<T> row = locate<edge_pressures>(pressure_difference_Pa, pressure_difference, inside);
     const Cell<T> column = locate<edge_positions>(position_m, position, inside);
-    EdgePoint<T> out = at(layer, row, column, pressure_difference);
+    const Cell<T> oil{layer.cell.index & (edge_temperatures - 2), layer.cell.share};
+    EdgePoint<T> out = at(oil, row, column, pressure_difference);
     out.inside = inside;
-    out.temperature_inside = temperature_inside;
+    out.temperature_inside = layer.inside;
     return out;
+  }
+  [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(T temperature, T pressure_difference, T position) const {
+    return at(layer_at(temperature), pressure_difference, position);
   }
 };
 

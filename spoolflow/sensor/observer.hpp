@@ -235,8 +235,7 @@ SPOOLFLOW_INLINE constexpr void observe_forces(const ObserverParameters<T>& valv
 
   // Axial force and friction.
   const T spring_N = valve.spring.at(position.position_m).value;
-  const EdgePoint<T> edge =
-      valve.edge.at(state.oil.temperature_K, state.pressure.pressure_difference_Pa, position.position_m);
+  const EdgePoint<T> edge = valve.edge.at(state.oil_layer, state.pressure.pressure_difference_Pa, position.position_m);
   const ForceBalance<T> balance = balance_forces(
       valve, {state.friction, state.swing}, {actuator, spring_N, edge, state.pressure.friction_ratio}, position, dither,
       {schedule.slip_excess, schedule.friction_memory, state.dither.period_s, sample.time_step_s});
@@ -259,6 +258,7 @@ SPOOLFLOW_INLINE constexpr void observe(const ObserverParameters<T>& valve, Obse
                                         const Sample<T>& sample, const PositionPoint<T>& position,
                                         const Dither<T>& dither, const Schedule<T>& schedule, T opposing_N,
                                         bool begins) {
+  if (schedule.oil_temperature.now || begins) state.oil_layer = valve.edge.layer_at(state.oil.temperature_K);
   if (unlikely(position.fault || state.actuator.coil_resistance.unanswered)) {
     answer_in_doubt(state, valve, sample, {position.position_m, position.elsewhere_m, position.fault}, opposing_N,
                     begins);
@@ -300,15 +300,16 @@ constexpr void hold(const ObserverParameters<T>& valve, ObserverState<T>& state,
 template <class T>
 constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                   const Sample<T>& measured) {
-  bool begins = !state.started, irregular = false;
+  bool leapt = false, irregular = false;
   if (unlikely(!ordinary(measured))) {
-    irregular = is_irregular(measured.time_step_s) && !(begins && is_zero(measured.time_step_s));
-    begins = begins || time_leapt(measured.time_step_s);
+    leapt = time_leapt(measured.time_step_s);
+    irregular = is_irregular(measured.time_step_s) && (state.started || !is_zero(measured.time_step_s));
     if (unusable(measured) != Status::none) {
       detail::hold(state, measured, valve);
       return state.last;
     }
   }
+  const bool begins = !state.started || leapt;
   const Sample<T>& sample = begins ? measured : detail::credible(valve, state, measured);
   if (begins) detail::begin(valve, state, sample);
   const Dither<T> dither = follow_dither(state.dither, sample.current_A, valve.largest_current_A, sample.time_step_s);

@@ -99,6 +99,7 @@ struct ObserverState {
   DitherState<T> dither;
   FrictionSwingState<T> swing;
   OilState<T> oil;
+  OilLayer<T> oil_layer;  ///< of its temperature in the edge's tables
   ForceErrors<T> force_errors;
   int held_currents{};  ///< samples in a row whose current was implausible and replaced
   Sample<T> held{};     ///< the last of them, with the current that stood in
