@@ -282,6 +282,7 @@ void describe_constants(Visitor&& visitor) {
   describe_position_constants(visitor);
   describe_slip_constants(visitor);
   describe_position_fault_constants(visitor);
+  describe_closed_constants(visitor);
   describe_friction_constants(visitor);
   describe_pressure_constants(visitor);
   describe_innovation_constants(visitor);

@@ -167,4 +167,18 @@ void describe_position_fault_constants(Visitor& visitor) {
       sensor::direction_only_m);
 }
 
+/// Of a position that stays closed against the forces.
+template <class Visitor>
+void describe_closed_constants(Visitor& visitor) {
+  visitor.constant(
+      {.name = "unmoved_factor",
+       .unit = "1",
+       .meaning = "no spool rests closed against a magnetic force that exceeds the spring by so many times "
+                  "what friction and the forces' uncertainty hold"},
+      sensor::unmoved_factor);
+  visitor.constant(
+      {.name = "longest_unmoved_s", .unit = "s", .meaning = "a position that says so for longer is in doubt"},
+      sensor::longest_unmoved_s);
+}
+
 }  // namespace spoolflow::model

@@ -61,6 +61,7 @@ constexpr void begin(const ObserverParameters<T>& valve, ObserverState<T>& state
   state.started = true;
   sensor::begin(state.oil, sample.oil_temperature_K, valve.edge.temperature_K.at(1));
   state.held_currents = 0;
+  state.unmoved_s = T(0);
   const T position_m = drift_free_m(valve.position_sensor, sample.position_m, state.oil.temperature_K);
   sensor::begin(state.position, position_m);
   sensor::begin(state.dither, sample.current_A);  // without dither no swing is kept either
@@ -206,15 +207,33 @@ SPOOLFLOW_NOINLINE constexpr void answer_in_doubt(ObserverState<T>& state, const
   mark(out.status, state.oil.fault_s > T(0), Status::temperature_fault);
 }
 
+/// A position that says that the spool rests and covers the edge, against forces that move any spool, is wrong: the
+/// spool may stand anywhere on the side to which they push.
+template <class T>
+SPOOLFLOW_NOINLINE constexpr void judge_closed(const ObserverParameters<T>& valve, ObserverState<T>& state,
+                                               const ClosedForces<T>& forces, T time_step_s) {
+  const T way = way_of(forces);
+  if (is_zero(way) || state.position.motion != Motion::rest) {
+    state.unmoved_s = T(0);
+    return;
+  }
+  state.unmoved_s += smaller(time_step_s, T(longest_regular_step_s));
+  if (!(state.unmoved_s > T(longest_unmoved_s))) return;
+  state.position.fault_s = larger(time_step_s, T(shortest_step_s));
+  state.position.elsewhere_m = forces.side * way * valve.edge.position_m.at(edge_positions - 1) - state.position.last_m;
+}
+
 /// Pressure difference from the balance of forces, and what it makes of friction.
 template <class T>
 SPOOLFLOW_INLINE constexpr void update_pressure(const ObserverParameters<T>& valve, ObserverState<T>& state,
-                                                const ForceBalance<T>& balance, const Schedule<T>& schedule,
-                                                T time_step_s) {
+                                                const ForceBalance<T>& balance, const PositionPoint<T>& position,
+                                                const Schedule<T>& schedule, T time_step_s) {
   PressureState<T>& pressure = state.pressure;
   const T prior_Pa = pressure.pressure_difference_Pa;
   const T to_friction_N =
-      update(valve, pressure, balance, {schedule.friction_ratio, schedule.process_noise, time_step_s});
+      update(valve, pressure, balance, {schedule.friction_ratio, schedule.process_noise, time_step_s}, [&] {
+        judge_closed(valve, state, closed_forces(balance, state.force_errors.environment_N, position), time_step_s);
+      });
   if (!is_zero(to_friction_N)) correct_friction(state.friction, balance, to_friction_N);
   if (balance.dithered) {
     state.swing.flow_force_N +=
@@ -242,7 +261,7 @@ SPOOLFLOW_INLINE constexpr void observe_forces(const ObserverParameters<T>& valv
   state.force_errors.noise_N = balance.noise_N;
 
   // Flow force: what friction cannot be moves the pressure difference.
-  update_pressure(valve, state, balance, schedule, sample.time_step_s);
+  update_pressure(valve, state, balance, position, schedule, sample.time_step_s);
   follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, schedule.coil_diagnosis);
 
   // Flow rate and its band.

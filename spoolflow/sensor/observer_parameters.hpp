@@ -101,6 +101,7 @@ struct ObserverState {
   OilState<T> oil;
   OilLayer<T> oil_layer;  ///< of its temperature in the edge's tables
   ForceErrors<T> force_errors;
+  T unmoved_s{};        ///< for how long the forces have contradicted a closed position (closed_evidence.hpp)
   int held_currents{};  ///< samples in a row whose current was implausible and replaced
   Sample<T> held{};     ///< the last of them, with the current that stood in
   bool started{};       ///< a sample came in

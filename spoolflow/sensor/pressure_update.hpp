@@ -34,17 +34,21 @@ SPOOLFLOW_INLINE constexpr void predict(const ObserverParameters<T>& valve, Pres
 }  // namespace detail
 
 /// Prediction and update of the pressure difference. Returns the force [N] by which friction's estimate in pre-sliding
-/// is to be corrected, as the other explanation of what its bounds do not hold.
-template <class T>
+/// is to be corrected, as the other explanation of what its bounds do not hold. `closed()` is called where the spool
+/// covers the edge and shows no pressure.
+template <class T, class Closed>
 SPOOLFLOW_INLINE constexpr T update(const ObserverParameters<T>& valve, PressureState<T>& pressure,
-                                    const ForceBalance<T>& balance, const PressureTiming<T>& timing) {
+                                    const ForceBalance<T>& balance, const PressureTiming<T>& timing,
+                                    const Closed& closed) {
   const T highest_Pa = valve.highest_pressure_difference_Pa();
   const T slope = balance.edge.flow_force_per_pressure_N_Pa;
   const T friction_slope = pressure.friction_ratio * balance.edge.friction_per_pressure_N_Pa;
   detail::predict(valve, pressure, balance, timing, highest_Pa);
 
   T to_friction_N{};
-  if (balance.settled && !balance.closed && balance.sliding) {
+  if (balance.closed) {
+    closed();
+  } else if (balance.settled && balance.sliding) {
     if (timing.time_step_s > T(0))
       update_sliding(valve.pressure, pressure, sliding_innovation(balance, friction_slope), timing.time_step_s,
                      highest_Pa);

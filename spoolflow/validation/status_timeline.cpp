@@ -61,7 +61,8 @@ const char* meaning(sensor::Status bit) {
     case Status::open_stop:
       return "The spool stands on its open stop, which may hold what flow force does not: the flow may be smaller.";
     case Status::position_fault:
-      return "The position signal moved as no spool can; the last credible position was used. Look at its wiring.";
+      return "The position signal moved as no spool can, and the last credible position was used; or it stayed closed "
+             "against forces that move any spool. Look at its wiring.";
     case Status::sample_missing:
       return "An input was missing; the last flow was held, and its band opened.";
     case Status::time_fault:

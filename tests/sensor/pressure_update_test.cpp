@@ -55,6 +55,7 @@ ForceBalance<double> balance_of(bool sliding, double innovation_N) {
   return out;
 }
 
+constexpr auto nothing = [] {};  // is asked of a closed valve
 constexpr PressureTiming<double> timing{{false, 0.0}, false, sampled_s};
 
 TEST(PressureUpdate, OfASlidingSpoolAtAKnownFrictionRatioIsTheScalarKalmanFilter) {
@@ -62,7 +63,7 @@ TEST(PressureUpdate, OfASlidingSpoolAtAKnownFrictionRatioIsTheScalarKalmanFilter
   state.ratio_variance = 0;
   double mean_Pa = prior_Pa, variance_Pa2 = squared(prior_deviation_Pa);
   for (const double innovation_N : {0.5, -0.3, 0.4}) {
-    EXPECT_EQ(update(updated_valve(), state, balance_of(true, innovation_N), timing), 0);
+    EXPECT_EQ(update(updated_valve(), state, balance_of(true, innovation_N), timing, nothing), 0);
     // Two samples share one piece of evidence. The posterior weighs prior and measurement by one over their variances.
     variance_Pa2 += squared(2e5) * sampled_s;
     const double measured_variance_Pa2 = 2 * squared(forces_noise_N / force_slope_N_per_Pa);
@@ -78,7 +79,7 @@ TEST(PressureUpdate, OfASlidingSpoolAtAKnownFrictionRatioIsTheScalarKalmanFilter
 TEST(PressureUpdate, OfASlidingSpoolDividesAnInnovationBetweenPressureAndFrictionAsTheirVariancesAre) {
   PressureState<double> state = prior();
   constexpr double innovation_N = 0.5;
-  update(updated_valve(), state, balance_of(true, innovation_N), timing);
+  update(updated_valve(), state, balance_of(true, innovation_N), timing, nothing);
   const double of_pressure_N2 =
       squared(force_slope_N_per_Pa) * (squared(prior_deviation_Pa) + squared(2e5) * sampled_s);
   const double of_ratio_N2 = squared(spool_slides_N * 0.05);
@@ -100,7 +101,7 @@ TEST(PressureUpdate, OfABreakawayIsOneMeasurementAsSureAsBreakawayForcesRepeat) 
   ForceBalance<double> breaks = balance_of(false, 0);
   breaks.resting.breakaway_N = limit_N + excess_N;
   breaks.resting.rested_s = rested_s;
-  update(updated_valve(), state, breaks, timing);
+  update(updated_valve(), state, breaks, timing, nothing);
   const double prior_N2 =
       squared(force_slope_N_per_Pa) *
       (squared(prior_deviation_Pa) + updated_valve().pressure.first_process_noise * 1e12 * sampled_s);
@@ -113,7 +114,7 @@ TEST(PressureUpdate, OfABreakawayIsOneMeasurementAsSureAsBreakawayForcesRepeat) 
 TEST(PressureUpdate, AtRestDividesWhatFrictionCannotHoldBetweenPressureAndFriction) {
   for (const double beyond_N : {2.0, -2.0}) {
     PressureState<double> state = prior();
-    const double to_friction_N = update(updated_valve(), state, balance_of(false, beyond_N), timing);
+    const double to_friction_N = update(updated_valve(), state, balance_of(false, beyond_N), timing, nothing);
     const double prior_N2 =
         squared(force_slope_N_per_Pa) *
         (squared(prior_deviation_Pa) + updated_valve().pressure.first_process_noise * 1e12 * sampled_s);
@@ -131,7 +132,7 @@ TEST(PressureUpdate, WithinFrictionsBoundsOrBehindAClosedEdgeMovesNothingAndGrow
     state.process_noise = 0.001;  // of a steady supply
     ForceBalance<double> rests = balance_of(false, closed ? 3 : 0);
     rests.closed = closed;
-    EXPECT_EQ(update(updated_valve(), state, rests, timing), 0);
+    EXPECT_EQ(update(updated_valve(), state, rests, timing, nothing), 0);
     EXPECT_EQ(state.pressure_difference_Pa, prior_Pa);
     const double process_noise = closed ? updated_valve().pressure.first_process_noise : 0.001;
     EXPECT_DOUBLE_EQ(state.process_noise, process_noise);
@@ -142,7 +143,7 @@ TEST(PressureUpdate, WithinFrictionsBoundsOrBehindAClosedEdgeMovesNothingAndGrow
 TEST(PressureUpdate, BeginsAgainWhereForcesLeaveNoVariance) {
   PressureState<double> state = prior();
   state.variance_Pa2 = NAN;
-  update(updated_valve(), state, balance_of(false, 0), timing);
+  update(updated_valve(), state, balance_of(false, 0), timing, nothing);
   EXPECT_DOUBLE_EQ(state.pressure_difference_Pa, first_pressure_share * 80e5);
   EXPECT_DOUBLE_EQ(state.variance_Pa2, squared(first_deviation_share * 80e5));
 }

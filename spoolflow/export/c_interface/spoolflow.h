@@ -93,7 +93,7 @@ typedef enum spoolflow_estimator {
 #define SPOOLFLOW_STATUS_FLOW_REVERSED (UINT32_C(1) << 9)          /* by the port pressures a load drives the oil back */
 #define SPOOLFLOW_STATUS_OPEN_STOP (UINT32_C(1) << 10)             /* the spool stands on its open stop: the flow may be smaller */
 /* Faults: an input or the model cannot be trusted. */
-#define SPOOLFLOW_STATUS_POSITION_FAULT (UINT32_C(1) << 16) /* the position moved as no spool can: the last credible one is used */
+#define SPOOLFLOW_STATUS_POSITION_FAULT (UINT32_C(1) << 16) /* the position moved as no spool can: the last credible one is used; or stays closed against forces that move any spool: the band is open */
 #define SPOOLFLOW_STATUS_SAMPLE_MISSING (UINT32_C(1) << 17) /* current or position missing: the last flow is held, its band opens */
 #define SPOOLFLOW_STATUS_OTHER_DIRECTION (UINT32_C(1) << 18) /* the spool opens the direction that the model does not know */
 #define SPOOLFLOW_STATUS_TIME_FAULT (UINT32_C(1) << 19)     /* time stood still, ran backwards, or is NaN; see spoolflow_step */

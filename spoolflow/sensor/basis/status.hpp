@@ -23,7 +23,8 @@ enum class Status : std::uint32_t {
   flow_reversed = 1U << 9,   ///< by the port pressures a load drives the oil against the way that the spool opens
   open_stop = 1U << 10,      ///< the spool stands on its open stop: the flow force may be smaller, down to none
   // faults
-  position_fault = 1U << 16,   ///< the position signal moved as no spool can: the last credible position is used
+  position_fault = 1U << 16,   ///< the position signal moved as no spool can: the last credible position is used; or it
+                               ///< stays closed against forces that move any spool: the band is all that may flow
   sample_missing = 1U << 17,   ///< an input is missing: the last flow is held, its band opens
   other_direction = 1U << 18,  ///< the spool opens the direction of flow that the model does not know: the band is all
                                ///< that may flow there

@@ -151,6 +151,7 @@ struct PositionPoint {
   T elsewhere_m{};  ///< under a fault: where the spool is if the jump is the other way about than taken
   T noise_times{};  ///< the signal's noise over the calibrated one, >= 1
   PositionBlock<T> block{};
+  T side{1};  ///< sign of the valve's position > 0 on the side from which this is seen
 };
 
 static_assert(std::is_trivially_copyable_v<PositionState<float>>);

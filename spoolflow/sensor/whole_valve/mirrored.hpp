@@ -20,6 +20,7 @@ constexpr PositionPoint<T> mirrored(bool seen_from_a, PositionPoint<T> point) {
   point.velocity_m_per_s = -point.velocity_m_per_s;
   point.acceleration_m_per_s2 = -point.acceleration_m_per_s2;
   point.elsewhere_m = -point.elsewhere_m;
+  point.side = -point.side;
   return point;
 }
 
