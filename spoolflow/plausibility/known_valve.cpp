@@ -71,6 +71,7 @@ std::vector<KnownValve> known_valve(const model::Model& model) {
     out.back().resistance_Ohm = observer->parameters.actuator.coil_resistance.resistance_Ohm;
     out.back().position_noise_m = observer->parameters.position_sensor.noise_m;
     out.back().oil_temperature_K = observer->oil_temperature_K;
+    out.back().closed_below_m = observer->parameters.closed_below_m;
   };
   add_observed(model.observer);
   if (model.whole()) {

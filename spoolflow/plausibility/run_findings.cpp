@@ -325,13 +325,14 @@ std::vector<Finding> run_findings(const std::vector<KnownValve>& valve, const Ru
     reference = values_later(time_s, reference, shift->late_s);
   }
   for (const Finding& finding : run_zero_findings(trial.run, trial.directions())) add(finding.cannot_be, finding.text);
+  if (const auto zero = meter_zero_finding(trial.run, trial.directions())) add(zero->cannot_be, zero->text);
   if (!resampled.empty()) return out;  // neither lines nor forces are the valve's
   const std::optional<ErrorFinding> error = error_finding(trial);
   const std::string coarse = coarse_position(run.position_resolution(), valve.front().position_noise_m);
   if (!(error && error->of_position)) add(false, coarse);
   add(false, low_pass_finding(run.steady_lines(), valve.front().position_noise_m));
-  for (const std::string& line : steady_line_findings(run.steady_lines(), valve.front().position_noise_m))
-    add(false, line);
+  const SteadyValve known{valve.front().position_noise_m, {valve.front().resistance_Ohm, valve.back().resistance_Ohm}};
+  for (const std::string& line : steady_line_findings(run.steady_lines(), known)) add(false, line);
   if (error) add(error->cannot_be, error->text);
   return out;
 }

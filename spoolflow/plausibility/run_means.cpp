@@ -93,9 +93,12 @@ void RunMeans::take(const recording::SampleBlock& block) {
   motion_delay_.take(block.columns);
   sample_grid_.take(block.columns);
   const bool both = !block.column(Channel::current_b).empty();
-  for (const Channel coil : {both ? Channel::current_b : Channel::current, Channel::current_a}) {
-    const std::size_t k = coil == Channel::current_a;
+  for (const std::size_t k : {0U, 1U}) {
+    const bool a = k == 1;
+    const Channel coil = a ? Channel::current_a : both ? Channel::current_b : Channel::current;
+    const Channel voltage = a ? Channel::voltage_a : both ? Channel::voltage_b : Channel::voltage;
     steady_lines_.current[k].take(time_s, block.column(coil));
+    steady_lines_.voltage[k].take(time_s, block.column(voltage));
     double largest_A = steady_lines_.largest_current_A[k];
     for (const double current_A : block.column(coil)) largest_A = std::max(largest_A, current_A);
     steady_lines_.largest_current_A[k] = largest_A;

@@ -25,7 +25,7 @@ constexpr std::size_t most_pieces = 128;  ///< kept; then every second one, and 
 constexpr std::size_t fewest_pieces = 8;
 constexpr std::size_t own_bins = 4, neighbour_bins = 24;  ///< either side of a line, which a Hann window spreads
 constexpr double longest_step_s = 0.004, uneven = 1.5;    ///< of the time between samples
-constexpr double lowest_Hz = 15, highest_Hz = 120, highest_dither_Hz = 240, lowest_dither_Hz = 60;
+constexpr double lowest_beat_Hz = 1, lowest_Hz = 15, highest_Hz = 120, highest_dither_Hz = 240, lowest_dither_Hz = 60;
 constexpr double near_Hz = 1;
 constexpr int most_harmonics = 30;
 constexpr double dither_share = 0.01;  ///< of the largest current
@@ -154,9 +154,13 @@ std::optional<SpectralLine> Spectrum::line(double least_Hz, double most_Hz, std:
     const double left = std::log(power[k - 1]), here = std::log(power[k]), right = std::log(power[k + 1]);
     const double curvature = left - 2 * here + right;
     const double beside_bins = curvature < 0 ? std::clamp(0.5 * (left - right) / curvature, -0.5, 0.5) : 0;
-    best = {frequency_Hz + beside_bins * bin_Hz, 4 * std::sqrt(power[k]) / piece};
+    best = {frequency_Hz + beside_bins * bin_Hz, amplitude(frequency_Hz)};
   }
   return best;
+}
+
+double Spectrum::amplitude(double frequency_Hz) const {
+  return 4 * std::sqrt(power.at(static_cast<std::size_t>(std::lround(frequency_Hz / bin_Hz)))) / piece;
 }
 
 double Spectrum::noise(double least_Hz, double most_Hz) const {
@@ -194,38 +198,63 @@ std::string low_pass_finding(const SteadyLines& run, double position_noise_m) {
   return {};
 }
 
-std::vector<std::string> steady_line_findings(const SteadyLines& run, double position_noise_m) {
-  const Spectrum position = run.position.median();
-  const std::array current{run.current[0].median(), run.current[1].median()};
-  // Dither, and where sampling folds its harmonics to. It also mixes with the pump's usual ripple.
-  std::vector<double> passed;
+namespace {
+
+/// Dither, and where sampling folds its harmonics to [Hz]. It also mixes with the pump's usual ripple.
+std::vector<double> dither_lines(const SteadyLines& run, const std::array<Spectrum, 2>& current) {
+  std::vector<double> out;
   for (std::size_t coil = 0; coil < current.size(); ++coil) {
     const auto dither = current[coil].line(lowest_dither_Hz, highest_dither_Hz, {});
     if (!dither || dither->amplitude < dither_share * run.largest_current_A[coil]) continue;
     for (const double rate_Hz : {current[coil].sample_rate_Hz, 1 / point_s}) {
       for (int harmonic = 1; harmonic <= most_harmonics; ++harmonic) {
         const double at_Hz = harmonic * dither->frequency_Hz;
-        passed.push_back(std::abs(at_Hz - rate_Hz * std::round(at_Hz / rate_Hz)));
+        out.push_back(std::abs(at_Hz - rate_Hz * std::round(at_Hz / rate_Hz)));
       }
     }
   }
+  return out;
+}
+
+/// A line of the current that no voltage drives: whatever inductance and motion do, a coil's impedance is no less than
+/// its resistance.
+std::optional<SpectralLine> undriven_line(const Spectrum& current, const Spectrum& voltage, double resistance_Ohm,
+                                          std::span<const double> passed) {
+  const auto line = current.line(lowest_beat_Hz, lowest_Hz, passed);
+  if (!line || voltage.power.size() != current.power.size() || !(resistance_Ohm > 0)) return std::nullopt;
+  const bool driven =
+      voltage.amplitude(line->frequency_Hz) > undriven_share * resistance_Ohm * current.amplitude(line->frequency_Hz);
+  return driven ? std::nullopt : line;
+}
+
+}  // namespace
+
+std::vector<std::string> steady_line_findings(const SteadyLines& run, const SteadyValve& valve) {
+  const Spectrum position = run.position.median();
+  const std::array current{run.current[0].median(), run.current[1].median()};
+  const std::vector<double> passed = dither_lines(run, current);
   std::vector<std::string> out;
-  if (const auto shaken = position.line(lowest_Hz, highest_Hz, passed);
-      shaken && shaken->amplitude > (passed.empty() ? 1 : beside_dither) * position_noise_m) {
+  if (const auto line = position.line(lowest_Hz, highest_Hz, passed);
+      line && line->amplitude > (passed.empty() ? 1 : beside_dither) * valve.position_noise_m) {
     out.push_back(fmt::format(
         "position shakes at {:.1f} Hz by {:.2g} um all along: the machine's vibration, or the pump's ripple "
         "as sampling shows it; the band knows of it what [environment] declares: vibration_g, ripple_bar",
-        shaken->frequency_Hz, units::mm_from_m(shaken->amplitude) * 1e3));
+        line->frequency_Hz, units::mm_from_m(line->amplitude) * 1e3));
   }
-  for (std::size_t coil = 0; coil < current.size() && out.empty(); ++coil) {
+  const std::size_t shaken = out.size();
+  for (std::size_t coil = 0; coil < current.size() && out.size() == shaken; ++coil) {
     const double largest_A = run.largest_current_A[coil];
-    const auto beat = current[coil].line(lowest_Hz, highest_Hz, passed);
-    if (!beat || beat->amplitude < (passed.empty() ? beat_share : beat_beside_dither) * largest_A) continue;
-    out.push_back(fmt::format(
-        "current beats at {:.1f} Hz by {:.2g} mA all along while the position does not: its PWM is sampled at "
-        "instants; average "
-        "over a period or sample in step with it, or declare [environment] pwm_ripple_percent = {:.2g}",
-        beat->frequency_Hz, beat->amplitude * 1e3, 200 * beat->amplitude / largest_A));
+    const double least_A = (passed.empty() ? beat_share : beat_beside_dither) * largest_A;
+    const auto add = [&](const std::optional<SpectralLine>& beat, std::string_view though) {
+      if (!beat || beat->amplitude < least_A) return;
+      out.push_back(fmt::format(
+          "current beats at {:.1f} Hz by {:.2g} mA all along {}: its PWM is sampled at instants; average over a period "
+          "or sample in step with it, or declare [environment] pwm_ripple_percent = {:.2g} or more",
+          beat->frequency_Hz, beat->amplitude * 1e3, though, 200 * beat->amplitude / largest_A));
+    };
+    add(undriven_line(current[coil], run.voltage[coil].median(), valve.resistance_Ohm[coil], passed),
+        "without a voltage that drives it");
+    if (out.empty()) add(current[coil].line(lowest_Hz, highest_Hz, passed), "while the position does not");
   }
   return out;
 }

@@ -26,6 +26,9 @@ struct Spectrum {
   /// least. Near `passed` [Hz] none is looked for.
   [[nodiscard]] std::optional<SpectralLine> line(double least_Hz, double most_Hz, std::span<const double> passed) const;
 
+  /// Of what stands at a frequency [Hz] that the spectrum holds, as of a line.
+  [[nodiscard]] double amplitude(double frequency_Hz) const;
+
   /// Standard deviation of the samples' noise, in the unit of the signal, if all of it were as between these
   /// frequencies [Hz]; NaN where the spectrum does not reach so far.
   [[nodiscard]] double noise(double least_Hz, double most_Hz) const;
@@ -52,17 +55,25 @@ class MedianSpectrum {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Position and currents of one run.
+/// Position, currents and voltages of one run.
 struct SteadyLines {
   MedianSpectrum position{};                  ///< [m]
   std::array<MedianSpectrum, 2> current{};    ///< [A] of the coil, or of both
+  std::array<MedianSpectrum, 2> voltage{};    ///< [V] likewise
   std::array<double, 2> largest_current_A{};  ///< of each
 };
 
+/// What is known of the valve.
+struct SteadyValve {
+  double position_noise_m;                 ///< of a sample
+  std::array<double, 2> resistance_Ohm{};  ///< of each coil; 0: not known
+};
+
 /// In words what shakes the spool, and what beats in a coil's current beside dither and what follows from it: a line of
-/// the position of `position_noise_m`, beside dither 2.5 times that, of a current of a thousandth of its largest
-/// value at least, beside dither of four. Empty: none.
-[[nodiscard]] std::vector<std::string> steady_line_findings(const SteadyLines& run, double position_noise_m);
+/// the position of the valve's noise, beside dither 2.5 times that, of a current of a thousandth of its largest value
+/// at least, beside dither of four. Below 15 Hz a current moves the spool, too, and one beats whose voltage is less
+/// than the resistance asks for. Empty: none.
+[[nodiscard]] std::vector<std::string> steady_line_findings(const SteadyLines& run, const SteadyValve& valve);
 
 /// In words the channel, position or current, that holds less beyond 150 Hz than noise does: half of
 /// `position_noise_m`, of a current 0.02 % of its largest value, and falling. Empty: none.

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/plausibility/block_means.hpp"
 #include "spoolflow/plausibility/limits.hpp"
 #include "spoolflow/plausibility/position_zero.hpp"
 #include "spoolflow/plausibility/relation.hpp"
@@ -52,6 +53,27 @@ Finding rest_finding(double rest_m, double stroke_m) {
                   "the zero of the position sensor is off; measure the closed position, and give the position that "
                   "offset in the channel map",
                   units::mm_from_m(rest_m))};
+}
+
+/// The flow [m3/s] behind the closed valve, block by block, once a meter shows no more of what passed before.
+std::vector<double> flows_closed(const Recording& run, double closed_below_m) {
+  constexpr double settling_s = 0.5, least_s = 1, sure_share = 0.5;  // of where it covers the edge
+  const std::vector<double>&time_s = run.column(Channel::time), &position_m = run.column(Channel::position);
+  std::vector<double> out, phase;
+  double from_s = 0;
+  bool closed = false;
+  for (std::size_t k = 0; k < run.size(); ++k) {
+    const bool closes = std::abs(position_m[k]) < sure_share * closed_below_m;
+    if (closes && !closed) from_s = time_s[k];
+    if (closes != closed) phase.clear();
+    closed = closes;
+    if (!closed || time_s[k] < from_s + settling_s || std::isnan(run.column(Channel::flow)[k])) continue;
+    phase.push_back(run.column(Channel::flow)[k]);
+    if (time_s[k] < from_s + settling_s + least_s) continue;
+    out.insert(out.end(), phase.begin(), phase.end());
+    phase.clear();
+  }
+  return out;
 }
 
 }  // namespace
@@ -128,6 +150,23 @@ std::vector<Finding> run_zero_findings(Recording& run, std::span<const KnownValv
     take_off(run, *rest_m);
   }
   return out;
+}
+
+std::optional<Finding> meter_zero_finding(const Recording& run, std::span<const KnownValve> valve) {
+  if (!run.has(Channel::flow)) return std::nullopt;
+  const double closed_below_m = std::ranges::min(valve, {}, &KnownValve::closed_below_m).closed_below_m;
+  const double largest = valve.front().hydraulics.largest_flow_m3_per_s;
+  const std::vector<double> flows = flows_closed(longer_blocks(run), closed_below_m);
+  if (flows.empty()) return std::nullopt;
+  const double zero = mean_of_numbers(flows);
+  const auto [least, most] = std::ranges::minmax(flows);
+  if (!(std::abs(zero) > meter_zero_share * largest) || most - least > meter_zero_range * std::abs(zero))
+    return std::nullopt;
+  return Finding{false, fmt::format("flow_reference stands at {:.2g} L/min, {:.2g} % of the largest flow, while the "
+                                    "spool covers the edge: the zero of the meter is off, or oil leaks past the "
+                                    "spool; read the meter with the pump off, and give flow_reference that offset in "
+                                    "the channel map",
+                                    units::L_per_min_from_m3_per_s(zero), 100 * zero / largest)};
 }
 
 std::optional<Finding> centre_finding(const OpeningCurve& b, const OpeningCurve& a, double stroke_m) {

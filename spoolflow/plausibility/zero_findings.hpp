@@ -24,6 +24,11 @@ namespace spoolflow::plausibility {
 /// direction, or both of a whole valve whose run goes through the centre.
 [[nodiscard]] std::vector<Finding> run_zero_findings(recording::Recording& run, std::span<const KnownValve> valve);
 
+/// What the meter shows steadily, a second long at least, where the spool has covered the edge for half a second, if
+/// that is no leakage of a sound valve.
+[[nodiscard]] std::optional<Finding> meter_zero_finding(const recording::Recording& run,
+                                                        std::span<const KnownValve> valve);
+
 /// The edges of both directions of a whole valve against each other; positions count from its centre.
 [[nodiscard]] std::optional<Finding> centre_finding(const OpeningCurve& b, const OpeningCurve& a, double stroke_m);
 

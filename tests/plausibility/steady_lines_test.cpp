@@ -51,14 +51,14 @@ SteadyLines run(double rate_Hz, const std::function<double(double)>& position_m,
 const std::function<double(double)> no_line = [](double) { return 0.0; };
 
 TEST(SteadyLines, AValveThatWorksHasNone) {
-  EXPECT_THAT(steady_line_findings(run(1000, no_line, no_line), noise_m), IsEmpty());
+  EXPECT_THAT(steady_line_findings(run(1000, no_line, no_line), {noise_m}), IsEmpty());
 }
 
 TEST(SteadyLines, AMachineThatShakesItsValveIsNamedWithFrequencyAndAmplitudeAtAnySamplingRate) {
   for (const double rate_Hz : {500.0, 1000.0, 3000.0}) {
     const auto shaken = [](double now_s) { return 2e-6 * sine(35.2, now_s); };
     const SteadyLines seen = run(rate_Hz, shaken, no_line);
-    EXPECT_THAT(steady_line_findings(seen, noise_m), ElementsAre(HasSubstr("position shakes at 35.2 Hz by")))
+    EXPECT_THAT(steady_line_findings(seen, {noise_m}), ElementsAre(HasSubstr("position shakes at 35.2 Hz by")))
         << rate_Hz;
     const auto line = seen.position.median().line(15, 120, {});
     ASSERT_TRUE(line) << rate_Hz;
@@ -71,15 +71,44 @@ TEST(SteadyLines, DitherAndWhereSamplingFoldsItsHarmonicsAreNone) {
     return sine(117, now_s) > 0 ? 0.1 : -0.1;
   };
   const auto follows = [&](double now_s) { return 2e-5 * dither(now_s); };
-  EXPECT_THAT(steady_line_findings(run(1000, follows, dither), noise_m), IsEmpty());
+  EXPECT_THAT(steady_line_findings(run(1000, follows, dither), {noise_m}), IsEmpty());
   const auto shaken = [&](double now_s) { return follows(now_s) + 5e-6 * sine(35.2, now_s); };
-  EXPECT_THAT(steady_line_findings(run(1000, shaken, dither), noise_m), ElementsAre(HasSubstr("shakes at 35.2 Hz")));
+  EXPECT_THAT(steady_line_findings(run(1000, shaken, dither), {noise_m}), ElementsAre(HasSubstr("shakes at 35.2 Hz")));
 }
 
 TEST(SteadyLines, APwmThatIsSampledAtInstantsIsNamedWithWhatToDeclare) {
   const auto beat = [](double now_s) { return 0.04 * sine(19, now_s); };
-  EXPECT_THAT(steady_line_findings(run(1000, no_line, beat), noise_m),
+  EXPECT_THAT(steady_line_findings(run(1000, no_line, beat), {noise_m}),
               ElementsAre(AllOf(HasSubstr("current beats at 19.0 Hz by"), HasSubstr("pwm_ripple_percent = 3.9"))));
+}
+
+/// A coil of 3 Ohm whose current strokes at random, of which so much of what beats in it at 3.1 Hz has its voltage.
+SteadyLines beating(double driven_share) {
+  std::mt19937 engine(7);
+  std::normal_distribution<double> noise(0, 1);
+  std::vector<double> time_s, current, voltage;
+  double target_A = 1, stroke_A = 1;
+  for (int k = 0; k < 40'000; ++k) {
+    if (k % 333 == 0) target_A = 1 + 0.15 * noise(engine);
+    stroke_A += (target_A - stroke_A) * 0.03;
+    time_s.push_back(1e-3 * k);
+    const double beat_A = 0.1 * sine(3.1, time_s.back());
+    current.push_back(stroke_A + beat_A + 1.5e-3 * noise(engine));
+    voltage.push_back(3 * (stroke_A + driven_share * beat_A) + 0.01 * noise(engine));
+  }
+  SteadyLines out;
+  out.current[0].take(time_s, current);
+  out.voltage[0].take(time_s, voltage);
+  out.largest_current_A[0] = 2;
+  return out;
+}
+
+TEST(SteadyLines, APwmThatBeatsSlowlyIsNamedByTheVoltageThatDoesNotDriveIt) {
+  EXPECT_THAT(steady_line_findings(beating(0), {noise_m, {3, 3}}),
+              ElementsAre(AllOf(HasSubstr("current beats at 3.1 Hz by"), HasSubstr("without a voltage that drives it"),
+                                HasSubstr("pwm_ripple_percent = "))));
+  EXPECT_THAT(steady_line_findings(beating(1), {noise_m, {3, 3}}), IsEmpty()) << "the valve works at 3.1 Hz";
+  EXPECT_THAT(steady_line_findings(beating(0), {noise_m}), IsEmpty()) << "the coil's resistance is not known";
 }
 
 /// Keeps of each sample what one pole of a low-pass leaves of it, twice.
@@ -116,7 +145,7 @@ SteadyLines dithered_behind(double position_Hz, double current_Hz, double noise_
 
 TEST(LowPass, OfTheRecorderIsNamedInThePositionOrInTheCurrentAlone) {
   constexpr double open = 1e9;
-  EXPECT_THAT(low_pass_finding(dithered_behind(open, open), noise_m), IsEmpty());
+  EXPECT_THAT(low_pass_finding(dithered_behind(open, open), {noise_m}), IsEmpty());
   for (const double corner_Hz : {20.0, 50.0})
     EXPECT_THAT(low_pass_finding(dithered_behind(corner_Hz, corner_Hz), noise_m),
                 AllOf(HasSubstr("position holds no noise beyond 150 Hz"), HasSubstr("dither"), HasSubstr("low-pass")));
@@ -124,8 +153,8 @@ TEST(LowPass, OfTheRecorderIsNamedInThePositionOrInTheCurrentAlone) {
 }
 
 TEST(LowPass, IsNoQuieterSensorNorAStrokingValve) {
-  EXPECT_THAT(low_pass_finding(dithered_behind(1e9, 1e9, 0.05), noise_m), IsEmpty());
-  EXPECT_THAT(low_pass_finding(run(1000, no_line, no_line), noise_m), IsEmpty());
+  EXPECT_THAT(low_pass_finding(dithered_behind(1e9, 1e9, 0.05), {noise_m}), IsEmpty());
+  EXPECT_THAT(low_pass_finding(run(1000, no_line, no_line), {noise_m}), IsEmpty());
 }
 
 TEST(SteadyLines, OfARunOfAnHourAreThoseOfAllItsTime) {
@@ -147,7 +176,7 @@ TEST(SteadyLines, AMissingValueCostsItsOwnPieceAlone) {
   const auto sometimes_missing = [](double now_s) {
     return std::fmod(now_s, 9) < 1e-4 ? std::nan("") : 2e-6 * sine(35.2, now_s);
   };
-  EXPECT_THAT(steady_line_findings(run(1000, sometimes_missing, no_line), noise_m),
+  EXPECT_THAT(steady_line_findings(run(1000, sometimes_missing, no_line), {noise_m}),
               ElementsAre(HasSubstr("35.2 Hz by")));
 }
 

@@ -2,6 +2,8 @@
 /// raise nothing.
 #include "spoolflow/plausibility/zero_findings.hpp"
 
+#include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -98,6 +100,38 @@ TEST(ZeroFindings, NameARunThroughTheCentreWhoseZeroIsATenthOfAMillimetreOff) {
   EXPECT_THAT(all_texts(run_findings(known, means_of(run), "run.csv")),
               testing::AllOf(testing::ContainsRegex("(0.1|0.09).* mm more than in the axial-force maps of P to B"),
                              testing::ContainsRegex("(0.1|0.09).* mm less than in the axial-force maps of P to A")));
+}
+
+/// A meter beside a valve that closes at 5 s for two seconds, passes 60 L/min before, and opens again.
+Recording metered(const std::function<double(double closed_s)>& shown_L_min) {
+  Recording run;
+  for (int k = 0; k < 1000; ++k) {
+    const double time_s = 0.01 * k, closed_s = time_s - 5;
+    const bool closed = closed_s >= 0 && closed_s < 2;
+    run.column(Channel::time).push_back(time_s);
+    run.column(Channel::position).push_back(closed ? 0.05e-3 : 1.5e-3);
+    run.column(Channel::flow).push_back(units::m3_per_s_from_L_per_min(closed ? shown_L_min(closed_s) : 60));
+  }
+  return run;
+}
+
+TEST(ZeroFindings, NameAMeterThatShowsAnOffsetBehindTheClosedValve) {
+  KnownValve valve{};
+  valve.closed_below_m = 0.2e-3;
+  valve.hydraulics.largest_flow_m3_per_s = units::m3_per_s_from_L_per_min(80);
+  const std::vector<KnownValve> valves{valve};
+  for (const double offset_L_min : {1.5, -1.5}) {
+    const auto finding = meter_zero_finding(metered([&](double) { return offset_L_min; }), valves);
+    ASSERT_TRUE(finding);
+    EXPECT_THAT(finding->text, testing::HasSubstr(offset_L_min > 0 ? "flow_reference stands at 1.5 L/min, 1.9 %"
+                                                                   : "flow_reference stands at -1.5 L/min, -1.9 %"));
+  }
+  const auto leaks = [](double) { return 0.3; };
+  const auto changes = [](double closed_s) { return 1.5 + 0.6 * std::sin(3 * closed_s); };
+  const auto slow_meter = [](double closed_s) { return 60 * std::exp(-closed_s / 0.5); };
+  EXPECT_FALSE(meter_zero_finding(metered(leaks), valves));
+  EXPECT_FALSE(meter_zero_finding(metered(changes), valves));
+  EXPECT_FALSE(meter_zero_finding(metered(slow_meter), valves));
 }
 
 TEST(ZeroFindings, NameEdgesOfBothDirectionsThatOpenAtDifferentDistancesFromTheCentre) {
