@@ -12,6 +12,7 @@
 #include "spoolflow/calibration/observer.hpp"
 #include "spoolflow/calibration/type/one_side.hpp"
 #include "spoolflow/calibration/type/type_model.hpp"
+#include "spoolflow/calibration/type/unit_agreement.hpp"
 #include "spoolflow/calibration/type/unit_parameters.hpp"
 #include "spoolflow/calibration/unpressurised_strokes.hpp"
 #include "spoolflow/plausibility/known_valve.hpp"
@@ -189,6 +190,33 @@ void set_open_stop(double open_stop_m, model::Model& unit) {
   if (unit.p_to_a) unit.p_to_a->observer->parameters.stopped_above_m = stopped_above_m(open_stop_m);
 }
 
+/// Those that show a direction, of runs through the centre its part, which is put into `parts`.
+std::vector<UnitRun> runs_of(const model::Model& type, const std::string& direction, const std::vector<UnitRun>& runs,
+                             std::deque<recording::Recording>& parts) {
+  std::vector<UnitRun> out;
+  for (const UnitRun& run : runs) {
+    if (type.whole() && run.direction == through_centre) {
+      parts.push_back(one_side(*run.recording, direction, type.valve.stroke_m).run);
+      out.push_back({&parts.back(), run.protocol, direction});
+    } else if (!type.whole() || run.direction == direction) {
+      out.push_back(run);
+    }
+  }
+  return out;
+}
+
+/// Recordings that contradict each other.
+void add_disagreements(std::vector<std::string>& to, const model::Model& type, const std::string& type_file,
+                       const std::vector<UnitRun>& runs) {
+  for (const std::string& direction : model::directions(type)) {
+    const model::Model of_one = model::of_direction(type, direction);
+    std::deque<recording::Recording> parts;
+    std::string found =
+        disagreeing_runs(of_one, known_of_type(of_one, type_file), runs_of(type, direction, runs, parts));
+    if (!found.empty()) to.push_back(std::move(found));
+  }
+}
+
 }  // namespace
 
 recording::CampaignValve valve_of_type(const model::Model& type) {
@@ -202,16 +230,8 @@ CalibratedUnit unit_of_type(const model::Model& type, const std::string& type_fi
   for (const std::string& direction : model::directions(type)) {
     const model::Model of_one = model::of_direction(type, direction);
     std::deque<recording::Recording> parts;
-    UnitRecordings its{unit.name, unit.file, {}};
+    UnitRecordings its{unit.name, unit.file, runs_of(type, direction, unit.runs, parts)};
     if (type.whole()) its.file += fmt::format(", {}", model::flow_of(direction));
-    for (const UnitRun& run : unit.runs) {
-      if (type.whole() && run.direction == through_centre) {
-        parts.push_back(one_side(*run.recording, direction, type.valve.stroke_m).run);
-        its.runs.push_back({&parts.back(), run.protocol, direction});
-      } else if (!type.whole() || run.direction == direction) {
-        its.runs.push_back(run);
-      }
-    }
     UnitCalibration found = its.runs.empty() && type.whole() && !unit.runs.empty()
                                 ? unseen_unit(of_one, type_file)
                                 : of_direction(of_one, type_file, its);
@@ -250,6 +270,7 @@ CalibratedUnit calibrate_unit(const model::Model& type, const std::string& type_
   }
   constexpr double reading_share = 0.3;
   progress("the unit against its type", reading_share);
+  add_disagreements(provenance.doubts, type, type_file, runs);
   CalibratedUnit out =
       unit_despite(provenance.doubts, type, type_file, {unit.valve.name, unit.file.string(), std::move(runs)});
   add_edges(provenance.doubts, out);

@@ -10,6 +10,7 @@
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/type/spread.hpp"
 #include "spoolflow/calibration/type/type_model.hpp"
+#include "spoolflow/calibration/type/unit_agreement.hpp"
 #include "spoolflow/calibration/type/unit_evidence.hpp"
 #include "spoolflow/recording/reader.hpp"
 #include "tests/calibration/type/virtual_unit.hpp"
@@ -192,6 +193,31 @@ TEST(CalibrateUnit, AnotherSpringIsNoUnitOfTheTypeAndIsNamedByStandardDeviations
     EXPECT_THAT(error.what(), HasSubstr("spring_rate +"));
     EXPECT_THAT(error.what(), HasSubstr("standard deviations"));
   }
+}
+
+/// What is said of strokes of one unit beside a run of another.
+std::string said_of_mixed(const Deviations& dry_unit, const Deviations& wet_unit) {
+  const recording::TemporaryFile dry("dry.csv", ""), wet("wet.csv", "");
+  const sensor::ObserverParameters<double>& of_type = type().observer->parameters;
+  write_strokes(dry.path(), unit_parameters(of_type, dry_unit), {0, 0}, type().valve.stroke_m);
+  write_strokes(wet.path(), unit_parameters(of_type, wet_unit), {40, 40}, type().valve.stroke_m);
+  const recording::Recording read_dry = recording::read_recording(dry.path(), {}),
+                             read_wet = recording::read_recording(wet.path(), {});
+  return disagreeing_runs(
+      type(), known_of_type(type(), "type.json"),
+      {{&read_dry, recording::Protocol::unpressurised_strokes}, {&read_wet, recording::Protocol::operation}});
+}
+
+TEST(CalibrateUnit, RecordingsOfTwoUnitsAreNamedWithWhatSetsThemApart) {
+  Deviations one{}, other{};
+  one[at(Variation::spring_preload)] = 0.03;
+  one[at(Variation::position_zero)] = 6e-6;
+  other[at(Variation::spring_preload)] = -0.04;
+  EXPECT_EQ(said_of_mixed(one, one), "");
+  EXPECT_EQ(said_of_mixed(other, other), "");
+  const std::string said = said_of_mixed(one, other);
+  EXPECT_THAT(said, HasSubstr("dry.csv and wet.csv are hardly of one unit: spring_preload is +"));
+  EXPECT_THAT(said, HasSubstr("% by the one and -"));
 }
 
 TEST(CalibrateUnit, ItsModelIsReadAgainAsItWasWritten) {

@@ -1,0 +1,64 @@
+#include "spoolflow/calibration/type/unit_agreement.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "spoolflow/calibration/numerics/covariance.hpp"
+#include "spoolflow/numerics/equations/symmetric_equations.hpp"
+
+namespace spoolflow::calibration {
+namespace {
+
+std::string written(std::size_t variation, double value) {
+  const WrittenUnit unit = written_unit(all_variations()[variation].unit);
+  return fmt::format("{:+.3g} {}", unit.scale * value, unit.name);
+}
+
+}  // namespace
+
+Disagreement disagreement_of(const KnownDeviations& one, const KnownDeviations& other, const KnownDeviations& prior) {
+  // What a recording has shown is what it took off the prior's covariance; its mean is so much of the unit's
+  // deviations, and errors. A direction that neither shows counts for nothing.
+  constexpr double shown_least = 1e-4;
+  const Eigen::MatrixXd of_one = prior.covariance - one.covariance, of_other = prior.covariance - other.covariance;
+  const Eigen::MatrixXd common = of_one * inverse_of_covariance(prior.covariance) * of_other;
+  Eigen::MatrixXd covariance = of_one + of_other - common - common.transpose();
+  covariance.diagonal() += shown_least * prior.covariance.diagonal();
+  const Eigen::VectorXd apart = one.mean - other.mean;
+  const Eigen::VectorXd deviations = apart.cwiseQuotient(covariance.diagonal().cwiseSqrt());
+  Eigen::Index worst = 0;
+  deviations.cwiseAbs().maxCoeff(&worst);
+  return {apart.dot(numerics::solve_symmetric(covariance, apart)), static_cast<std::size_t>(worst), one.mean(worst),
+          other.mean(worst), std::abs(deviations(worst))};
+}
+
+std::string disagreeing_runs(const model::Model& type, const KnownDeviations& prior, const std::vector<UnitRun>& runs) {
+  std::vector<KnownDeviations> said;
+  std::vector<std::string> files;
+  for (const UnitRun& run : runs) {
+    const UnitEvidence evidence(type, {run});
+    if (evidence.kinds().empty()) continue;
+    said.push_back(most_likely_unit(evidence, prior).known);
+    files.push_back(run.recording->file.filename().string());
+  }
+  std::string out;
+  double worst = disagreeing_chi_square;
+  for (std::size_t k = 0; k < said.size(); ++k) {
+    for (std::size_t j = 0; j < k; ++j) {
+      const Disagreement found = disagreement_of(said[j], said[k], prior);
+      if (!(found.chi_square > worst)) continue;
+      worst = found.chi_square;
+      out = fmt::format(
+          "{} and {} are hardly of one unit: {} is {} by the one and {} by the other, {:.1f} standard deviations "
+          "apart (all directions: chi square {:.0f}, and of one unit {:g} at most); look whose recordings they are, "
+          "and "
+          "whether position sensor and spring stayed as they were between them",
+          files[j], files[k], all_variations()[found.variation].name, written(found.variation, found.one),
+          written(found.variation, found.other), found.deviations, found.chi_square, disagreeing_chi_square);
+    }
+  }
+  return out;
+}
+
+}  // namespace spoolflow::calibration
