@@ -181,7 +181,7 @@ Change friction_change(std::span<const SeenFriction> seen) {
   mean /= weights;
   const double none = as_the_model_errs(same)[same_friction];
   Change out{mean, std::sqrt(square / weights - mean * mean), std::log(weights / expected) + most - none};
-  out.taken = out.evidence > friction_evidence || wears;
+  out.taken = out.evidence > change_evidence || wears;
   return out;
 }
 

@@ -21,10 +21,9 @@ inline constexpr double edge_wear = Priors::edge_wear, position_zero_wear_m = Pr
 inline constexpr double friction_wear = 0.25;
 /// Innovations so far apart count as independent.
 inline constexpr double innovation_memory_s = 0.1;
-/// In natural logarithms, prior widths counted: a change is taken where it is three times as likely as none, friction
-/// where it is twenty times (sound valves' innovations say up to nine, worn ones' a thousand); a leak or narrower edges
-/// contradict where they are five times as likely.
-inline constexpr double change_evidence = 1.1, friction_evidence = 3, contradiction_evidence = 1.6;
+/// In natural logarithms, prior widths counted: a change is taken where it is three times as likely as none, a leak or
+/// narrower edges contradict where they are five times as likely.
+inline constexpr double change_evidence = 1.1, contradiction_evidence = 1.6;
 inline constexpr double percent = 100;  ///< a share of 1
 
 /// Friction tried beside that of a look: logarithms of their ratio, -0.8 to 1.0.
