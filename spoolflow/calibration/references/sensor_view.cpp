@@ -63,14 +63,44 @@ class Innovations {
   double average_ = sensor::usual_innovation_squared;
 };
 
+/// Break-aways of the spool: at rest nothing else takes from the variance of the pressure difference.
+class BreakAways {
+ public:
+  /// Of the sample that came `step_s` after the last; nothing where the spool does not break away.
+  std::optional<double> next_loss(const sensor::ObserverParameters<double>& valve,
+                                  const sensor::ObserverState<double>& state, bool rests, double step_s) {
+    sensor::PressureState<double> prior = std::exchange(last_, state.pressure);
+    if (!rests) return {};
+    const sensor::EdgePoint<double> edge =
+        valve.edge.at(state.oil.temperature_K, prior.pressure_difference_Pa, state.position.last_m);
+    sensor::drift_unobserved(valve.pressure, prior, step_s, valve.highest_pressure_difference_Pa());
+    return breakaway_loss(prior, state.pressure, edge.flow_force_per_pressure_N_Pa);
+  }
+
+ private:
+  sensor::PressureState<double> last_{};
+};
+
 }  // namespace
+
+/// The square of an innovation over its variance is that of the change which it makes over what it takes.
+std::optional<double> breakaway_loss(const sensor::PressureState<double>& prior,
+                                     const sensor::PressureState<double>& posterior, double slope_N_per_Pa) {
+  constexpr double rounding = 1e-6;
+  const double taken_Pa2 = prior.variance_Pa2 - posterior.variance_Pa2;
+  if (!(taken_Pa2 > rounding * prior.variance_Pa2) || !(slope_N_per_Pa > 0)) return {};
+  const double change_Pa = posterior.pressure_difference_Pa - prior.pressure_difference_Pa,
+               expected_N = slope_N_per_Pa * prior.variance_Pa2 / std::sqrt(taken_Pa2);
+  return interval_loss(change_Pa / std::sqrt(taken_Pa2)) + std::log(expected_N);
+}
 
 SensorView view_through(const sensor::ObserverParameters<double>& valve, double rated_flow_m3_per_s,
                         const std::vector<WatchedRun>& runs) {
-  SensorView out{{}, 0};
+  SensorView out{{}, 0, 0};
   for (const WatchedRun& run : runs) {
     RunView sums(run);
     Innovations innovations;
+    BreakAways breakaways;
     estimation::RunningSensor sensor(&valve, rated_flow_m3_per_s);
     const estimation::Columns columns = operating_columns(*run.recording);
     const double begin_s = columns.time_s.front();
@@ -80,9 +110,13 @@ SensorView view_through(const sensor::ObserverParameters<double>& valve, double 
       if (!(step_s > 0)) return;
       sums.add(before_s, now_s, answer.flow_m3_per_s);
       before_s = now_s;
-      const auto squared = innovations.next(sensor.state().observer.pressure.innovation_squared, step_s);
-      if (squared && now_s - begin_s >= settling_s && sums.oil_passes(now_s))
-        out.sliding_loss_s += step_s * interval_loss(std::sqrt(*squared));
+      const sensor::ObserverState<double>& state = sensor.state().observer;
+      const auto squared = innovations.next(state.pressure.innovation_squared, step_s);
+      const bool rests = sensor::has(answer.status, sensor::Status::spool_at_rest);
+      const auto broke_away = breakaways.next_loss(valve, state, rests, step_s);
+      if (now_s - begin_s < settling_s || !sums.oil_passes(now_s)) return;
+      if (squared) out.sliding_loss_s += step_s * interval_loss(std::sqrt(*squared));
+      if (broke_away) out.breakaway_loss += *broke_away;
     });
     out.volume_m3.insert(out.volume_m3.end(), sums.volume_m3().begin(), sums.volume_m3().end());
   }

@@ -5,6 +5,7 @@
 
 #include "spoolflow/calibration/references/passed_oil.hpp"
 #include "spoolflow/sensor/observer_parameters.hpp"
+#include "spoolflow/sensor/pressure_difference.hpp"
 
 namespace spoolflow::calibration {
 
@@ -17,7 +18,14 @@ struct WatchedRun {
 struct SensorView {
   std::vector<double> volume_m3;  ///< the sensor's, of each interval, run after run
   double sliding_loss_s;          ///< interval_loss() of the innovations, while the spool slides and oil passes
+  double breakaway_loss;          ///< of all break-aways while oil passes
 };
+
+/// Of one break-away, as negative logarithm of the likelihood of its force in newtons, from the state of the pressure
+/// difference before and after it; nothing where it took nothing from the variance.
+[[nodiscard]] std::optional<double> breakaway_loss(const sensor::PressureState<double>& prior,
+                                                   const sensor::PressureState<double>& posterior,
+                                                   double slope_N_per_Pa);
 
 /// All runs through the sensor with these parameters, each from its beginning.
 [[nodiscard]] SensorView view_through(const sensor::ObserverParameters<double>& valve, double rated_flow_m3_per_s,
