@@ -57,7 +57,7 @@ sensor::MachineFinding<float> found(const model::Model& model, const std::vector
 
 void print(const std::string& name, const sensor::MachineFinding<float>& finding,
            const sensor::ReferenceState<float>& state) {
-  constexpr const char* verdicts[] = {"too few", "stays", "moves", "leaks", "less oil", "apart"};
+  constexpr const char* verdicts[] = {"too few", "stays", "moves", "leaks", "less oil", "apart", "more oil"};
   constexpr double percent = 100, um_per_m = 1e6;
   const auto of = [](float value) { return static_cast<double>(value); };
   fmt::print(

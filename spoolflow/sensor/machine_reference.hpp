@@ -34,6 +34,11 @@ struct ReferencePriors {
   /// Volumes go with the root of the width: a wider edge has more flow force, too, and the pressure difference is taken
   /// for less.
   static constexpr double volume_per_width = 0.5;
+  /// Of stated areas, displacements and gains one in ten is wrong (logarithm of the odds), and then by so much, one
+  /// standard deviation: another bore, a rod that counts or does not, a nominal displacement.
+  static constexpr double misstated_log_odds = -2.2, misstated_share = 0.07;
+  /// In natural logarithms: what is so much more likely than wear contradicts it, five times.
+  static constexpr double contradiction_evidence = 1.6;
   /// One standard deviation of a seal's leakage, as a share of the rated flow.
   static constexpr double seal_wear_share = 0.0125;
   /// A finding is one beyond so many standard deviations, after so many references.
@@ -95,7 +100,8 @@ enum class MachineVerdict : unsigned char {
   moves,     ///< write the page (parameter_image/moved_page.hpp)
   leaks,     ///< slow strokes miss more oil than fast ones: mend the seal
   less_oil,  ///< edges would be narrower, and wear widens them: a seal, another consumer, a wrong area
-  apart      ///< two fifths of the references lie apart
+  apart,     ///< two fifths of the references lie apart
+  more_oil   ///< edges would be so much wider that a wrong area is far likelier than wear
 };
 
 template <class T>
@@ -212,6 +218,17 @@ constexpr CommonLevel<T> without_leak(const ReferenceState<T>& state) {
 
 }  // namespace detail
 
+/// By how much a reference whose area, displacement or gain is misstated is more likely than wear, in natural
+/// logarithms, where all its volumes have `level` in common, the logarithm of the machine's over the sensor's, known to
+/// `variance`. Both look alike but for their size.
+template <class T>
+constexpr T misstated_evidence(T level, T variance) {
+  const T wear2 = squared(T(ReferencePriors::volume_per_width * ReferencePriors::edge_wear)) + variance,
+          loose2 = wear2 + squared(T(ReferencePriors::misstated_share));
+  return T(ReferencePriors::misstated_log_odds) - detail::logarithm(T(sqrt(loose2 / wear2))) +
+         T(0.5) * squared(level) * (T(1) / wear2 - T(1) / loose2);
+}
+
 /// What all references so far come to. As on the host, the volumes' level is that without a leak unless one is clear,
 /// and edges of a valve whose position zero has moved need no evidence of their own: parts wear together.
 template <class T>
@@ -235,6 +252,9 @@ constexpr MachineFinding<T> finding_of(const MachineKnowledge<T>& machine, const
     out.verdict = MachineVerdict::leaks;
   } else if (enough && detail::clearly(-common.level, variance, T(0))) {
     out.verdict = MachineVerdict::less_oil;
+  } else if (enough && common.level > T(0) &&
+             misstated_evidence(common.level, variance) > T(ReferencePriors::contradiction_evidence)) {
+    out.verdict = MachineVerdict::more_oil;
   } else if (drifted || (enough && detail::clearly(common.level, variance, T(0)))) {
     out.verdict = MachineVerdict::moves;
     out.position_zero_m = drifted ? state.zero_m : T(0);

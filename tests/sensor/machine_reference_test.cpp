@@ -58,6 +58,10 @@ TEST(MachineReference, AnAreaThatIsWrongByTwoPercentMovesNothing) {
   EXPECT_EQ(finding_of(boom(), after(20, {1, 0, 0, 0.93F})).verdict, MachineVerdict::less_oil);
 }
 
+TEST(MachineReference, AnAreaThatIsWrongByFifteenPercentIsNoWear) {
+  EXPECT_EQ(finding_of(boom(), after(20, {1, 0, 0, 1.15F})).verdict, MachineVerdict::more_oil);
+}
+
 TEST(MachineReference, ALeakingSealIsToldFromWiderEdgesBySlowStrokes) {
   const auto found = finding_of(boom(), after(40, {1, 2}));
   EXPECT_EQ(found.verdict, MachineVerdict::leaks);

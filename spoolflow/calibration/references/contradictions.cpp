@@ -1,5 +1,6 @@
 #include "spoolflow/calibration/references/contradictions.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -119,6 +120,30 @@ void require_no_less(const MachineEvidence& evidence, const Change& edge) {
       fmt::format("{} refused: so little oil passed that the edges would be {:.1f} % narrower, and wear widens them; "
                   "likely a seal leaks, another consumer is open, or the stated area or displacement is too small",
                   names_of(evidence), percent * (1 - std::exp(edge.value))));
+}
+
+void require_no_misstated(const MachineEvidence& evidence, const EdgeChange& edge) {
+  if (!(edge.value > 0) || edge.misstated < contradiction_evidence) return;
+  const double too_large = Priors::volume_per_width * edge.asked;
+  throw CalibrationError(
+      fmt::format("{} refused: so much oil passed that the edges would be {:.0f} % wider at once, and a stated {} that "
+                  "is {:.0f} % too large is exp({:.1f}) times as likely; correct it; if it is right, give a second "
+                  "reference that says the same (another cylinder, a pump, a meter), or calibrate the valve again",
+                  names_of(evidence), percent * (std::exp(edge.asked) - 1), stated_by(evidence),
+                  percent * (std::exp(too_large) - 1), edge.misstated));
+}
+
+std::string stated_by(const MachineEvidence& evidence) {
+  std::vector<std::string> out;
+  const auto add = [&](const char* what) {
+    if (std::ranges::find(out, what) == out.end()) out.emplace_back(what);
+  };
+  for (const recording::Reference& reference : evidence.references) {
+    if (reference.kind == recording::ReferenceKind::stroke) add("area");
+    if (reference.kind == recording::ReferenceKind::pump) add("displacement");
+    if (reference.kind == recording::ReferenceKind::meter) add("gain");
+  }
+  return fmt::format("{}", fmt::join(out, " or "));
 }
 
 }  // namespace spoolflow::calibration

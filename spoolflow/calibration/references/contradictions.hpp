@@ -16,6 +16,13 @@ namespace spoolflow::calibration {
 /// Throws where less oil passed than forces say by more than a model errs: wear opens edges.
 void require_no_less(const MachineEvidence& evidence, const Change& edge);
 
+/// Throws where more oil passed than forces say by so much that a misstated area, displacement or gain is far likelier
+/// than wear.
+void require_no_misstated(const MachineEvidence& evidence, const EdgeChange& edge);
+
+/// "area, displacement": what the references state, of which one may be wrong.
+[[nodiscard]] std::string stated_by(const MachineEvidence& evidence);
+
 /// "boom, pump": all that say how much oil passed.
 [[nodiscard]] std::string names_of(const MachineEvidence& evidence);
 

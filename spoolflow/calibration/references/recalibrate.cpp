@@ -169,9 +169,12 @@ class Update {
 
   void find_edges(const WearView& from) {
     const OilAgreement agreement = agreement_of(evidence_, from);
-    const Change edge = edge_change(evidence_, from);
+    const EdgeChange edge = edge_change(evidence_, from);
     if (agreement.deviation == 0) return;
     if (edge.value < 0) require_no_less(evidence_, likely_friction_ratio_ == 1 ? edge : edge_with_likely_friction());
+    require_no_misstated(evidence_, edge);
+    // What one reference leaves open of its own figures, it leaves open however often it is asked.
+    const double left_open = agreement.references > 1 ? 0 : wear_.flow_share;
     const std::string oil =
         fmt::format("{:+.1f} % of oil beside the sensor's by {}", percent * agreement.log_ratio, names_of(evidence_));
     const double share = std::exp(edge.value) - 1;
@@ -180,18 +183,30 @@ class Update {
       say((contradicts ? "edge width stays: wear does not narrow edges, and friction that is not known well may be why"
                        : stays("edge width", edge, fmt::format("{:+.1f} %", percent * share))) +
           "; " + oil);
-      if (wear_ != model::WearState{}) wear_.flow_share = 0.5 * edge_wear;
+      if (wear_ != model::WearState{}) wear_.flow_share = std::max(left_open, 0.5 * edge_wear);
       return;
     }
     wear_.edge_width = (1 + wear_.edge_width) * (1 + share) - 1;
     // Flow at a given force goes with the root of the width. Where the oil does not show the wear that friction or
     // position zero do, a reference may hide it: the band keeps all that wear usually changes.
-    wear_.flow_share = 0.5 * (edge.evidence > change_evidence ? edge.deviation : edge_wear);
+    const double open = edge.evidence > change_evidence ? edge.deviation : std::max(edge_wear, edge.deviation);
+    wear_.flow_share = std::max(left_open, 0.5 * open);
     correct("edge width", "1", share, edge.deviation);
-    say(fmt::format("edge width {:+.1f} +- {:.1f} %: {}", percent * share, percent * 2 * edge.deviation, oil));
+    say(fmt::format("edge width {:+.1f} +- {:.1f} %: {}", percent * share, percent * 2 * edge.deviation, oil) +
+        either(agreement, edge));
   }
 
-  [[nodiscard]] Change edge_with_likely_friction() const {
+  /// Of edges that one reference alone asks for: what else may be the cause.
+  [[nodiscard]] std::string either(const OilAgreement& agreement, const EdgeChange& edge) const {
+    if (agreement.references > 1 || !(edge.asked > 0)) return {};
+    return fmt::format(
+        "; a stated {} that is too large by as much looks alike (probability {:.0f} %), and the band holds both: a "
+        "second "
+        "reference tells them apart",
+        stated_by(evidence_), percent / (1 + std::exp(-edge.misstated)));
+  }
+
+  [[nodiscard]] EdgeChange edge_with_likely_friction() const {
     model::WearState likely = wear_;
     likely.friction_ratio *= likely_friction_ratio_;
     return edge_change(evidence_, seen_with(evidence_, likely, {}));

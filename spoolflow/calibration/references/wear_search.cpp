@@ -5,6 +5,8 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <set>
+#include <tuple>
 
 #include "spoolflow/parallel/for_each.hpp"
 
@@ -118,19 +120,32 @@ WearView seen_with(const MachineEvidence& evidence, const model::WearState& wear
 
 OilAgreement agreement_of(const MachineEvidence& evidence, const WearView& view) {
   double weights = 0, sum = 0;
+  std::set<std::tuple<recording::ReferenceKind, double, double>> stated;
   for (std::size_t r = 0; r < evidence.references.size(); ++r) {
     const OilLevel level = level_of(view.ratios, r);
     if (level.count == 0) continue;
-    const double weight =
-        1 / (level.deviation * level.deviation + std::pow(0.5 * evidence.references[r].share_uncertainty, 2));
+    const recording::Reference& reference = evidence.references[r];
+    stated.insert({reference.kind, reference.area_m2, reference.displacement_m3_per_rad});
+    const double weight = 1 / (level.deviation * level.deviation + std::pow(0.5 * reference.share_uncertainty, 2));
     weights += weight;
     sum += weight * level.log_ratio;
   }
-  if (!(weights > 0)) return {0, 0};
-  return {sum / weights, std::hypot(std::sqrt(1 / weights), model_volume_share)};
+  if (!(weights > 0)) return {0, 0, 0};
+  return {sum / weights, std::hypot(std::sqrt(1 / weights), model_volume_share), stated.size()};
 }
 
-Change edge_change(const MachineEvidence& evidence, const WearView& from) {
+EdgeChange wear_or_misstated(const OilAgreement& oil, double slope) {
+  const double asked = oil.log_ratio / slope;
+  const Change wear = of_measured(asked, oil.deviation / slope, edge_wear),
+               misstated = of_measured(asked, std::hypot(oil.deviation, Priors::misstated_share) / slope, edge_wear);
+  EdgeChange out{wear, asked, sensor::misstated_evidence(oil.log_ratio, oil.deviation * oil.deviation)};
+  const double share = 1 / (1 + std::exp(-out.misstated));
+  out.deviation = std::sqrt((1 - share) * std::pow(wear.deviation, 2) +
+                            share * (std::pow(misstated.deviation, 2) + std::pow(wear.value - misstated.value, 2)));
+  return out;
+}
+
+EdgeChange edge_change(const MachineEvidence& evidence, const WearView& from) {
   const OilAgreement here = agreement_of(evidence, from);
   if (!(here.deviation > 0)) return {};
   const std::vector<bool> used = used_of(from);
@@ -139,7 +154,11 @@ Change edge_change(const MachineEvidence& evidence, const WearView& from) {
   const double slope = (here.log_ratio - there.log_ratio) / turn;  // of the sensor's volume over the width
   constexpr double least_slope = 0.2;                              // less is not oil that an edge passes
   if (!(slope > least_slope)) return {};
-  Change out = of_measured(here.log_ratio / slope, here.deviation / slope, edge_wear);
+  // Different references are not misstated alike.
+  EdgeChange out =
+      here.references > 1
+          ? EdgeChange{of_measured(here.log_ratio / slope, here.deviation / slope, edge_wear), here.log_ratio / slope}
+          : wear_or_misstated(here, slope);
   const bool possible = with_edge(from.wear, out.value).edge_width > 0;
   out.taken = possible && (out.evidence > change_evidence || from.wear != model::WearState{});
   return out;

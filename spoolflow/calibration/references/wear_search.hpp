@@ -2,6 +2,7 @@
 /// The wear that makes a valve's sensor agree best with itself and with the oil that its references say has passed.
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -23,7 +24,7 @@ inline constexpr double friction_wear = 0.25;
 inline constexpr double innovation_memory_s = 0.1;
 /// In natural logarithms, prior widths counted: a change is taken where it is three times as likely as none, a leak or
 /// narrower edges contradict where they are five times as likely.
-inline constexpr double change_evidence = 1.1, contradiction_evidence = 1.6;
+inline constexpr double change_evidence = 1.1, contradiction_evidence = Priors::contradiction_evidence;
 inline constexpr double percent = 100;  ///< a share of 1
 
 /// Friction tried beside that of a look: logarithms of their ratio, -0.8 to 1.0.
@@ -68,13 +69,23 @@ struct Change {
 /// own, their stated and the model's.
 struct OilAgreement {
   double log_ratio, deviation;
+  std::size_t references;  ///< that say it, those counted once that state one area, displacement or meter
 };
 [[nodiscard]] OilAgreement agreement_of(const MachineEvidence& evidence, const WearView& view);
 
-/// Width of the edges, as the logarithm of its ratio to that of `from`. Of a valve that shows other wear it needs no
-/// evidence of its own: parts wear together. Its value is below 0 where the references say that less passes than forces
-/// do: then it is never taken from edges that have not widened.
-[[nodiscard]] Change edge_change(const MachineEvidence& evidence, const WearView& from);
+/// Width of the edges, as the logarithm of its ratio to that of `from`. A reference whose area, displacement or gain is
+/// misstated looks alike: the deviation holds both, by their probabilities.
+struct EdgeChange : Change {
+  double asked = 0;                                             ///< what the oil asks for, no prior width counted
+  double misstated = -std::numeric_limits<double>::infinity();  ///< sensor::misstated_evidence()
+};
+
+/// What the oil of one reference comes to. `slope`: of the oil over the width, both in logarithms.
+[[nodiscard]] EdgeChange wear_or_misstated(const OilAgreement& oil, double slope);
+
+/// Of a valve that shows other wear it needs no evidence of its own: parts wear together. Its value is below 0 where
+/// the references say that less passes than forces do: then it is never taken from edges that have not widened.
+[[nodiscard]] EdgeChange edge_change(const MachineEvidence& evidence, const WearView& from);
 
 /// What one direction shows of friction in operation, for each friction tried: logarithms of the likelihoods of the
 /// sensor's innovations and of how far the references' volumes scatter beside the sensor's, with edges as wide as the

@@ -62,5 +62,23 @@ TEST(EvidenceOfChange, WantsMoreThanTheDeviationAndPaysForTheWidthItAllows) {
   EXPECT_GT(evidence_of_change(0, 1, 3), evidence_of_change(0, 1, 30));
 }
 
+constexpr double width_slope = 0.5, known_share = 0.012;
+
+TEST(WearOrMisstated, ALittleMoreOilIsWearAndMuchMoreIsAMisstatedArea) {
+  const EdgeChange little = wear_or_misstated({0.035, known_share, 1}, width_slope),
+                   much = wear_or_misstated({0.14, known_share, 1}, width_slope);
+  EXPECT_LT(little.misstated, -contradiction_evidence);
+  EXPECT_GT(much.misstated, contradiction_evidence);
+  EXPECT_NEAR(much.asked, 0.14 / width_slope, 1e-12);
+}
+
+TEST(WearOrMisstated, BetweenThemTheDeviationHoldsTheWidthOfEither) {
+  for (const double log_ratio : {0.05, 0.07, 0.09}) {
+    const EdgeChange change = wear_or_misstated({log_ratio, known_share, 1}, width_slope);
+    EXPECT_NEAR(change.value, 0.86 * log_ratio / width_slope, 0.02 * log_ratio / width_slope);
+    EXPECT_GT(2 * change.deviation, 0.7 * change.value) << log_ratio;
+  }
+}
+
 }  // namespace
 }  // namespace spoolflow::calibration

@@ -19,6 +19,7 @@ using recording::Channel;
 using recording::Reference;
 using recording::ReferenceKind;
 using testing::HasSubstr;
+using testing::Not;
 
 const model::Model& worn_valve() {
   static const model::Model model = model_without_drift();
@@ -56,6 +57,24 @@ std::string refusal(const std::vector<recording::Recording>& recordings, const s
 void scale_meter(std::vector<recording::Recording>& recordings, double factor) {
   for (recording::Recording& recording : recordings)
     for (double& flow : recording.column(Channel::flow_reference)) flow *= factor;
+}
+
+/// A pump that says `share` of the oil which the meter sees in that recording.
+Reference gear_pump(const recording::Recording& recording, double share) {
+  double passed_m3 = 0;
+  for (std::size_t k = 1; k < recording.size(); ++k)
+    passed_m3 +=
+        recording[Channel::flow_reference][k] * (recording[Channel::time][k] - recording[Channel::time][k - 1]);
+  const double begin_s = recording[Channel::time].front(), end_s = recording[Channel::time].back();
+  Reference out;
+  out.kind = ReferenceKind::pump;
+  out.name = "gear pump";
+  out.place = "references.toml, line 9";
+  out.recording = recording.file.filename().string();
+  out.share_uncertainty = 0.01;
+  out.displacement_m3_per_rad = 1;
+  out.marks = {{begin_s, end_s, share * passed_m3 / (end_s - begin_s)}};
+  return out;
 }
 
 std::string text_of(const model::Model& model) {
@@ -127,20 +146,25 @@ TEST(Recalibrate, RefusesLessOilThanForcesSayForEdgesOnlyWiden) {
   EXPECT_THAT(refusal(recordings, {meter()}), HasSubstr("narrower"));
 }
 
+TEST(Recalibrate, RefusesMoreOilThanEdgesWearUnlessAnotherReferenceSaysTheSame) {
+  std::vector<recording::Recording> recordings = fresh_strokes();
+  scale_meter(recordings, 1.15);
+  EXPECT_THAT(refusal(recordings, {meter()}), HasSubstr("a stated gain that is"));
+  EXPECT_THAT(refusal(recordings, {meter(), gear_pump(recordings[0], 1)}), Not(HasSubstr("too large")));
+}
+
+TEST(Recalibrate, OfOneReferenceItSaysThatAMisstatedOneLooksAlikeAndTheBandHoldsIt) {
+  std::vector<recording::Recording> recordings = fresh_strokes();
+  scale_meter(recordings, 1.08);
+  const RecalibratedValve found = recalibrate(worn_valve(), recordings, {meter()}, how());
+  EXPECT_THAT(found.findings, testing::Contains(HasSubstr("a stated gain that is too large by as much looks alike")));
+  EXPECT_GT(2 * wear_of(found.model).flow_share, std::log(1.08));
+  const RecalibratedValve again = recalibrate(found.model, recordings, {meter()}, how());
+  EXPECT_GE(wear_of(again.model).flow_share, wear_of(found.model).flow_share);
+}
+
 TEST(Recalibrate, RefusesTwoReferencesThatContradictEachOtherByName) {
-  Reference pump;
-  pump.kind = ReferenceKind::pump;
-  pump.name = "gear pump";
-  pump.place = "references.toml, line 9";
-  pump.recording = fresh_strokes()[0].file.filename().string();
-  pump.share_uncertainty = 0.01;
-  pump.displacement_m3_per_rad = 1;
-  const recording::Recording& first = fresh_strokes()[0];
-  double passed_m3 = 0;
-  for (std::size_t k = 1; k < first.size(); ++k)
-    passed_m3 += first[Channel::flow_reference][k] * (first[Channel::time][k] - first[Channel::time][k - 1]);
-  const double begin_s = first[Channel::time].front(), end_s = first[Channel::time].back();
-  pump.marks = {{begin_s, end_s, 1.15 * passed_m3 / (end_s - begin_s)}};
+  const Reference pump = gear_pump(fresh_strokes()[0], 1.15);
   EXPECT_THAT(refusal(fresh_strokes(), {meter(), pump}), HasSubstr("gear pump says +"));
 }
 
