@@ -4,7 +4,7 @@
     references_on_rig.py OUT [--tuning] [--spoolflow PROGRAM] [--in-valve PROGRAM] [SEED ...]
 
 A valve drawn from its series is calibrated by its own campaign, then worn: edges that pass some 10 % more, friction + 30 %, zero + 15 um. It makes 20
-strokes of a cylinder, whose ends are marked in a file, and three seconds of the closed valve; ramps and duty cycles judge, six
+strokes of a cylinder (as many as the recording has, 17 at the least), whose ends are marked in a file, and three seconds of the closed valve; ramps and duty cycles judge, six
 of each together, for one alone depends on whether its spool hangs once more or less. The cylinder is filled by the true flow of the recording, and by
 nothing else of it; then with a leaking seal, another consumer, or an area that is wrong in references.toml. --tuning makes the valves on which constants
 are chosen; without it others, on which no constant depends. The worn valve is also calibrated again on its bench, and its references'
@@ -17,7 +17,7 @@ import pathlib
 import subprocess
 import sys
 
-SETS = {"tuning": (1913, 5101, 5102, 6201, 6202, 7301, 7302, 7303, 9401, 9402, 9403, 9404, 9405), "judged": (9411, 9412, 9413, 9414, 9415)}
+SETS = {"tuning": (1913, 5101, 5102, 6201, 6202, 7301, 7302, 7303, 9401, 9402, 9403, 9404, 9405), "judged": (9411, 9412, 9413, 9414, 9415, 9421, 9422, 9423)}
 TRUE_WEAR = {"friction_ratio": 1.3, "position_zero_m": 15e-6}  # as in WORN
 WORN = ("[wear]\nfriction_factor = 1.3\nedge_rounding_m = 10e-6\n[plant.edge_PB]\nnotch_width_m = 1.2e-3\n"
         "[instruments.lvdt]\nzero_offset_m = 15e-6\n")
@@ -30,9 +30,10 @@ JUDGED = {"ramps": ("ramps", "pressure_differences_bar = [34, 57]\nrate_percent_
                    "longest_pressure_hold_s = 4.5\n")}
 CLOSED = ("duty_cycle", "duration_s = 3\nlowest_percent = 0\nhighest_percent = 0\n")
 REPEATS = 6  # of each run that judges
-AREA_CM2, LENGTH_MM, STROKE_COUNT, RETURN_S = 40.0, 650.0, 20, 0.4
+AREA_CM2, LENGTH_MM, MOST_STROKES, LEAST_STROKES, RETURN_S = 40.0, 650.0, 20, 17, 0.4
 # Case: (leakage of the seal [L/min], every third stroke also feeds so much [L/min], stated area over the real one)
-CASES = {"right": (0, 0, 1), "area + 2 %": (0, 0, 1.02), "area - 2 %": (0, 0, 0.98), "seal 1 L/min": (1, 0, 1), "consumer": (0, 6, 1)}
+CASES = {"right": (0, 0, 1), "seal 1 L/min": (1, 0, 1), "consumer": (0, 6, 1)}
+CASES |= {f"area {percent:+d} %": (0, 0, 1 + percent / 100) for percent in (2, -2, 5, 10, 15, -15)}
 
 
 def call(*command):
@@ -113,10 +114,10 @@ def mark(folder, quality, case):
         if filled >= volume:
             marks.append((begin, times[k]))
             begin, wait = None, times[k] + RETURN_S
-    if len(marks) < STROKE_COUNT:
-        sys.exit(f"references_on_rig: {folder}: {len(marks)} strokes in the recording; {STROKE_COUNT} are wanted")
+    if len(marks) < LEAST_STROKES:
+        sys.exit(f"references_on_rig: {folder}: {len(marks)} strokes in the recording; {LEAST_STROKES} are wanted")
     stem = case.replace(" ", "_").replace("/", "_per_").replace("%", "percent")
-    rows = "".join(f"{begin:.4f},{end:.4f}\n" for begin, end in marks[:STROKE_COUNT])
+    rows = "".join(f"{begin:.4f},{end:.4f}\n" for begin, end in marks[:MOST_STROKES])
     (folder / f"{quality}_{stem}.csv").write_text("begin_s,end_s\n" + rows)
     file = folder / f"{quality}_{stem}.references.toml"
     file.write_text(f'[[reference]]\nkind = "stroke"\nname = "boom"\nrecording = "{quality}_strokes.csv"\nends = "marks"\nmarks = "{quality}_{stem}.csv"\n'

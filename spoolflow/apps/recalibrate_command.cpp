@@ -79,6 +79,7 @@ void recalibrate_model(const RecalibrateArguments& arguments) {
   OutputFile output(arguments.output, inputs);
   output.stream() << readable_text(valve.model, arguments.output);
   commit_together({&output});
+  for (const std::string& doubt : valve.doubts) say("spoolflow: doubt: {}\n", doubt);
   if (!arguments.quiet) print_findings(valve);
 }
 

@@ -94,6 +94,24 @@ void require_consistent(const MachineEvidence& evidence, const WearView& view, s
                   percent * 2 * expected));
 }
 
+/// "area or displacement": what the references state, of which one may be wrong.
+std::string stated_by(const MachineEvidence& evidence) {
+  std::vector<std::string> out;
+  for (const recording::Reference& reference : evidence.references) {
+    const char* what = reference.kind == recording::ReferenceKind::stroke ? "area"
+                       : reference.kind == recording::ReferenceKind::pump ? "displacement"
+                                                                          : "gain";
+    if (reference.kind != recording::ReferenceKind::closed && std::ranges::find(out, what) == out.end())
+      out.emplace_back(what);
+  }
+  return fmt::format("{}", fmt::join(out, " or "));
+}
+
+/// The share by which it is, where no edge wore.
+double too_large(const EdgeChange& edge) {
+  return std::exp(edge.oil) - 1;
+}
+
 }  // namespace
 
 std::string names_of(const MachineEvidence& evidence) {
@@ -124,26 +142,21 @@ void require_no_less(const MachineEvidence& evidence, const Change& edge) {
 
 void require_no_misstated(const MachineEvidence& evidence, const EdgeChange& edge) {
   if (!(edge.value > 0) || edge.misstated < contradiction_evidence) return;
-  const double too_large = Priors::volume_per_width * edge.asked;
   throw CalibrationError(
       fmt::format("{} refused: so much oil passed that the edges would be {:.0f} % wider at once, and a stated {} that "
                   "is {:.0f} % too large is exp({:.1f}) times as likely; correct it; if it is right, give a second "
                   "reference that says the same (another cylinder, a pump, a meter), or calibrate the valve again",
                   names_of(evidence), percent * (std::exp(edge.asked) - 1), stated_by(evidence),
-                  percent * (std::exp(too_large) - 1), edge.misstated));
+                  percent * too_large(edge), edge.misstated));
 }
 
-std::string stated_by(const MachineEvidence& evidence) {
-  std::vector<std::string> out;
-  const auto add = [&](const char* what) {
-    if (std::ranges::find(out, what) == out.end()) out.emplace_back(what);
-  };
-  for (const recording::Reference& reference : evidence.references) {
-    if (reference.kind == recording::ReferenceKind::stroke) add("area");
-    if (reference.kind == recording::ReferenceKind::pump) add("displacement");
-    if (reference.kind == recording::ReferenceKind::meter) add("gain");
-  }
-  return fmt::format("{}", fmt::join(out, " or "));
+std::string looks_alike(const MachineEvidence& evidence, const EdgeChange& edge) {
+  if (std::isinf(edge.misstated) || !(edge.asked > 0) || !(edge.evidence > 0)) return {};
+  return fmt::format(
+      "a stated {} that is {:.0f} % too large looks alike (probability {:.0f} %), and the band holds both; check it, "
+      "or "
+      "give a second reference (another cylinder, a pump, a meter)",
+      stated_by(evidence), percent * too_large(edge), percent / (1 + std::exp(-edge.misstated)));
 }
 
 }  // namespace spoolflow::calibration

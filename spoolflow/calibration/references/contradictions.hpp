@@ -20,8 +20,9 @@ void require_no_less(const MachineEvidence& evidence, const Change& edge);
 /// than wear.
 void require_no_misstated(const MachineEvidence& evidence, const EdgeChange& edge);
 
-/// "area, displacement": what the references state, of which one may be wrong.
-[[nodiscard]] std::string stated_by(const MachineEvidence& evidence);
+/// What else than wear may be the cause of wider edges: a misstated area, displacement or gain, and how likely. Empty
+/// where several references say the same, or no more oil passes than the model errs by.
+[[nodiscard]] std::string looks_alike(const MachineEvidence& evidence, const EdgeChange& edge);
 
 /// "boom, pump": all that say how much oil passed.
 [[nodiscard]] std::string names_of(const MachineEvidence& evidence);

@@ -152,6 +152,8 @@ class Update {
     find_edges(view);
   }
 
+  [[nodiscard]] const std::vector<std::string>& doubts() const { return doubts_; }
+
   /// The model with its entry at the end of the log.
   [[nodiscard]] model::Model moved_on() {
     require_within_limits(model_, wear_);
@@ -192,18 +194,10 @@ class Update {
     const double open = edge.evidence > change_evidence ? edge.deviation : std::max(edge_wear, edge.deviation);
     wear_.flow_share = std::max(left_open, 0.5 * open);
     correct("edge width", "1", share, edge.deviation);
-    say(fmt::format("edge width {:+.1f} +- {:.1f} %: {}", percent * share, percent * 2 * edge.deviation, oil) +
-        either(agreement, edge));
-  }
-
-  /// Of edges that one reference alone asks for: what else may be the cause.
-  [[nodiscard]] std::string either(const OilAgreement& agreement, const EdgeChange& edge) const {
-    if (agreement.references > 1 || !(edge.asked > 0)) return {};
-    return fmt::format(
-        "; a stated {} that is too large by as much looks alike (probability {:.0f} %), and the band holds both: a "
-        "second "
-        "reference tells them apart",
-        stated_by(evidence_), percent / (1 + std::exp(-edge.misstated)));
+    const std::string alike = looks_alike(evidence_, edge);
+    say(fmt::format("edge width {:+.1f} +- {:.1f} %: {}{}{}", percent * share, percent * 2 * edge.deviation, oil,
+                    alike.empty() ? "" : "; ", alike));
+    if (edge.misstated > doubtful_evidence) doubts_.push_back(fmt::format("{}: {}", names_of(evidence_), alike));
   }
 
   [[nodiscard]] EdgeChange edge_with_likely_friction() const {
@@ -217,6 +211,7 @@ class Update {
   model::Adaptation how_;
   MachineEvidence evidence_;  // refers to the two above
   model::WearState wear_;
+  std::vector<std::string> doubts_;
   double likely_friction_ratio_ = 1;  // of friction that is not taken: it may be why less oil passes than forces say
 };
 
@@ -263,7 +258,7 @@ RecalibratedValve recalibrate(const model::Model& model, const std::vector<recor
   require_movable(model);
   require_their_recordings(recordings, references);
   for (const recording::Recording& recording : recordings) how.files.push_back(recording.file.filename().string());
-  RecalibratedValve out{model, {}};
+  RecalibratedValve out{model, {}, {}};
   std::deque<Update> updates;  // of the directions that references are of
   for (const std::string& direction : model::directions(model)) {
     DirectionView view = view_of_direction(model, direction, recordings, references);
@@ -285,6 +280,7 @@ RecalibratedValve recalibrate(const model::Model& model, const std::vector<recor
   for (Update& each : updates) {
     each.take(friction);
     each.find_edges();
+    out.doubts.insert(out.doubts.end(), each.doubts().begin(), each.doubts().end());
     put(out, each.moved_on());
   }
   const auto closed = std::ranges::find(references, recording::ReferenceKind::closed, &recording::Reference::kind);
@@ -303,7 +299,7 @@ RecalibratedValve gone_back(const model::Model& model, std::size_t state, model:
                                        model.valve.name, state, last));
   }
   how.reasons = {fmt::format("went back to state {}", state)};
-  RecalibratedValve out{model, {}};
+  RecalibratedValve out{model, {}, {}};
   for (const std::string& direction : model::directions(model)) {
     const model::Model before = model::of_direction(model, direction);
     how.wear = state_of(model, direction, state);

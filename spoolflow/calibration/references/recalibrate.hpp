@@ -15,6 +15,7 @@ inline constexpr double most_edge_width = 0.35, most_friction_ratio = 3, most_po
 struct RecalibratedValve {
   model::Model model;
   std::vector<std::string> findings;  ///< sentences: what was changed, left out, or stays, and why
+  std::vector<std::string> doubts;    ///< of them those by which a reference may be misstated
 };
 
 /// Whether references move that model. Throws CalibrationError where it is of a type, or without an observer.

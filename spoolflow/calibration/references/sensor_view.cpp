@@ -69,16 +69,22 @@ class BreakAways {
   /// Of the sample that came `step_s` after the last; nothing where the spool does not break away.
   std::optional<double> next_loss(const sensor::ObserverParameters<double>& valve,
                                   const sensor::ObserverState<double>& state, bool rests, double step_s) {
-    sensor::PressureState<double> prior = std::exchange(last_, state.pressure);
+    sensor::PressureState<double> prior = std::exchange(pressure_, state.pressure);
+    const double rested_s = std::exchange(rest_s_, state.friction.rest_s);
     if (!rests) return {};
     const sensor::EdgePoint<double> edge =
         valve.edge.at(state.oil.temperature_K, prior.pressure_difference_Pa, state.position.last_m);
+    const double direction = state.friction.smooth_m > state.friction.followed_m ? 1 : -1,  // as it left its rest
+        friction_N_per_Pa = ageing(valve.friction, rested_s) * prior.friction_ratio * edge.friction_per_pressure_N_Pa;
     sensor::drift_unobserved(valve.pressure, prior, step_s, valve.highest_pressure_difference_Pa());
-    return breakaway_loss(prior, state.pressure, edge.flow_force_per_pressure_N_Pa);
+    return breakaway_loss(
+        prior, state.pressure,
+        sensor::whole_slope_N_per_Pa(edge.flow_force_per_pressure_N_Pa, direction * friction_N_per_Pa));
   }
 
  private:
-  sensor::PressureState<double> last_{};
+  sensor::PressureState<double> pressure_{};
+  double rest_s_ = 0;
 };
 
 }  // namespace

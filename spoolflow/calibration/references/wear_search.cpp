@@ -138,10 +138,8 @@ EdgeChange wear_or_misstated(const OilAgreement& oil, double slope) {
   const double asked = oil.log_ratio / slope;
   const Change wear = of_measured(asked, oil.deviation / slope, edge_wear),
                misstated = of_measured(asked, std::hypot(oil.deviation, Priors::misstated_share) / slope, edge_wear);
-  EdgeChange out{wear, asked, sensor::misstated_evidence(oil.log_ratio, oil.deviation * oil.deviation)};
-  const double share = 1 / (1 + std::exp(-out.misstated));
-  out.deviation = std::sqrt((1 - share) * std::pow(wear.deviation, 2) +
-                            share * (std::pow(misstated.deviation, 2) + std::pow(wear.value - misstated.value, 2)));
+  EdgeChange out{wear, asked, sensor::misstated_evidence(oil.log_ratio, oil.deviation * oil.deviation), oil.log_ratio};
+  out.deviation = std::hypot(wear.deviation, wear.value - misstated.value);
   return out;
 }
 

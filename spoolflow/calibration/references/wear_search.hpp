@@ -25,6 +25,8 @@ inline constexpr double innovation_memory_s = 0.1;
 /// In natural logarithms, prior widths counted: a change is taken where it is three times as likely as none, a leak or
 /// narrower edges contradict where they are five times as likely.
 inline constexpr double change_evidence = 1.1, contradiction_evidence = Priors::contradiction_evidence;
+/// A misstated reference is worth a doubt where it is half as likely as wear.
+inline constexpr double doubtful_evidence = -0.7;
 inline constexpr double percent = 100;  ///< a share of 1
 
 /// Friction tried beside that of a look: logarithms of their ratio, -0.8 to 1.0.
@@ -74,10 +76,11 @@ struct OilAgreement {
 [[nodiscard]] OilAgreement agreement_of(const MachineEvidence& evidence, const WearView& view);
 
 /// Width of the edges, as the logarithm of its ratio to that of `from`. A reference whose area, displacement or gain is
-/// misstated looks alike: the deviation holds both, by their probabilities.
+/// misstated looks alike: the deviation is as large as what lies between both.
 struct EdgeChange : Change {
   double asked = 0;                                             ///< what the oil asks for, no prior width counted
-  double misstated = -std::numeric_limits<double>::infinity();  ///< sensor::misstated_evidence()
+  double misstated = -std::numeric_limits<double>::infinity();  ///< sensor::misstated_evidence(); of several: none
+  double oil = 0;                                               ///< of one reference: logarithm of its volumes' ratio
 };
 
 /// What the oil of one reference comes to. `slope`: of the oil over the width, both in logarithms.

@@ -47,6 +47,15 @@ TEST(FrictionChange, StaysWhereTheReferencesAgreeWithTheModelAndIsTakenWhereOthe
   EXPECT_TRUE(friction_change(std::vector{healthy}).taken);
 }
 
+TEST(FrictionChange, LessFrictionIsNoWearAndNeedsEvidenceOfItsOwn) {
+  const SeenFriction more = direction(0.235, 0.235, 0.1), less = direction(-0.235, -0.235, 0.1);
+  const Change up = friction_change(std::vector{more}), down = friction_change(std::vector{less});
+  EXPECT_NEAR(up.evidence, down.evidence, 0.05);
+  EXPECT_TRUE(up.taken);
+  EXPECT_FALSE(down.taken);
+  EXPECT_TRUE(friction_change(std::vector{direction(-0.5, -0.5, 0.1)}).taken);
+}
+
 TEST(FrictionChange, OilThatAsksForWiderEdgesIsEvidenceOfItsOwn) {
   SeenFriction seen = direction(0.1, 0.1, 0.1);
   const double before = friction_change(std::vector{seen}).evidence;

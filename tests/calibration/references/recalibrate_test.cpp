@@ -157,7 +157,8 @@ TEST(Recalibrate, OfOneReferenceItSaysThatAMisstatedOneLooksAlikeAndTheBandHolds
   std::vector<recording::Recording> recordings = fresh_strokes();
   scale_meter(recordings, 1.08);
   const RecalibratedValve found = recalibrate(worn_valve(), recordings, {meter()}, how());
-  EXPECT_THAT(found.findings, testing::Contains(HasSubstr("a stated gain that is too large by as much looks alike")));
+  EXPECT_THAT(found.findings, testing::Contains(HasSubstr("% too large looks alike")));
+  EXPECT_THAT(found.doubts, testing::ElementsAre(HasSubstr("meter: a stated gain")));
   EXPECT_GT(2 * wear_of(found.model).flow_share, std::log(1.08));
   const RecalibratedValve again = recalibrate(found.model, recordings, {meter()}, how());
   EXPECT_GE(wear_of(again.model).flow_share, wear_of(found.model).flow_share);
