@@ -12,8 +12,12 @@ namespace {
 using Row = std::vector<std::pair<int, double>>;
 
 constexpr double usual_residual_N = 0.3;
-/// Neighbouring samples share what the model omits: so many of them count as one.
-constexpr double samples_alike = 30;
+/// Neighbouring samples share what the model omits, as a loop's path and a coil that warms, for seconds: so many of
+/// them count as one. Counted as more, they draw all forces that the current makes towards none, which leaves no
+/// residual.
+constexpr double samples_alike = 1000;
+/// Of what a force rig measured, at knots, the same.
+constexpr double measured_alike = 30;
 
 struct Equation {
   Row row;
@@ -259,7 +263,7 @@ ForceSolution solve_forces(const ForceLayout& layout, const ForcePriors& priors,
     Equations equations(layout.unknowns());
     add_priors(equations, layout, priors);
     const double deviation_N = out.residual_N * std::sqrt(samples_alike);
-    add_measured(equations, layout, priors.measured, deviation_N);
+    add_measured(equations, layout, priors.measured, out.residual_N * std::sqrt(measured_alike));
     if (priors.measured.empty()) add_scale(equations, layout, all, priors.map_scale);
     for (const Equation& each : all) {
       const double away = out.unknowns.size() == 0 ? 0 : deviation_of(each, out.unknowns) / (3 * out.residual_N);

@@ -57,7 +57,7 @@ struct ForceLayout {
   [[nodiscard]] int unknowns() const { return coil_at(coil_sizes); }
 };
 
-/// A force rig moved the spool there: spring and flow force, mean of both directions. It counts as a sliding sample.
+/// A force rig moved the spool there: spring and flow force, mean of both directions.
 struct MeasuredForce {
   double position_m, pressure_difference_Pa, oil_temperature_K, force_N;
 };
