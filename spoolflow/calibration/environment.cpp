@@ -33,6 +33,7 @@ sensor::Environment<double> of_valve(const recording::Environment& from, const m
   out.current_share = std::hypot(from.current_gain / deviations_at_95, from.pwm_ripple / 2 * of_triangle);
   out.force_N = valve.moving_mass_kg * from.vibration_m_per_s2 * of_sine;
   out.friction_share = from.friction / deviations_at_95;
+  out.dithered_loop_A = from.dithered_loop / deviations_at_95 * valve.actuator.coercive_current_A;
   out.ripple_Pa = from.ripple_Pa;
   out.flow_share = from.density / 2 / deviations_at_95;  // the orifice equation's root
   out.leakage_m3_per_s = from.leakage_m3_per_s / deviations_at_95;

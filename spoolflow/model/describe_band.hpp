@@ -90,6 +90,8 @@ void describe_environment(Environment& environment, Visitor& visitor) {
   number("environment_force_N", "N", {0, 1e4}, "standard deviation of forces on the spool from outside: vibration",
          environment.force_N);
   number("environment_friction_share", "1", {0, 10}, "standard uncertainty of friction", environment.friction_share);
+  number("environment_dithered_loop_A", "A", {0, 1e3}, "standard uncertainty of the magnetic loop under dither",
+         environment.dithered_loop_A);
   number("environment_ripple_Pa", "Pa", {0, 1e9}, "amplitude of the pressure difference's ripple",
          environment.ripple_Pa);
   number("environment_flow_share", "1", {0, 1}, "standard uncertainty of the conductance", environment.flow_share);

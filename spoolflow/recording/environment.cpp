@@ -31,6 +31,7 @@ constexpr std::array keys{Key{"position_zero_um", &Environment::position_zero_m,
                           Key{"pwm_ripple_percent", &Environment::pwm_ripple, 0.01, 100},
                           Key{"leakage_L_min", &Environment::leakage_m3_per_s, 1 / 60000.0, 100},
                           Key{"friction_percent", &Environment::friction, 0.01, 200},
+                          Key{"dithered_loop_percent", &Environment::dithered_loop, 0.01, 200},
                           Key{"vibration_g", &Environment::vibration_m_per_s2, standard_gravity_m_per_s2, 50},
                           Key{"ripple_bar", &Environment::ripple_Pa, 1e5, 200}};
 
@@ -46,7 +47,7 @@ Environment of_kind(const std::string& kind, const std::string& place) {
 void require_known_keys(const TomlTable& table) {
   table.allow_only({"kind", "position_zero_um", "position_gain_percent", "viscosity_percent", "temperature_K",
                     "density_percent", "current_gain_percent", "pwm_ripple_percent", "leakage_L_min",
-                    "friction_percent", "vibration_g", "ripple_bar", "highest_pressure_bar"});
+                    "friction_percent", "dithered_loop_percent", "vibration_g", "ripple_bar", "highest_pressure_bar"});
 }
 
 Environment from_table(const TomlTable& table, const std::string& usual_kind) {
@@ -79,6 +80,7 @@ Environment machine_environment() {
   out.current_gain = 0.005;
   out.leakage_m3_per_s = 0.2 / 60000;
   out.friction = 0.2;
+  out.dithered_loop = 1;
   out.vibration_m_per_s2 = 0.3 * standard_gravity_m_per_s2;
   out.ripple_Pa = 0.3e5;
   return out;

@@ -20,6 +20,7 @@ struct Environment {
   double leakage_m3_per_s = 0;         ///< past the metering edge
   double friction = 0;                 ///< as a share
   double vibration_m_per_s2 = 0;       ///< amplitude of the valve's acceleration along the spool
+  double dithered_loop = 0;            ///< of the magnetic loop under dither, as a share of half its width
   double ripple_Pa = 0;                ///< amplitude of the pressure difference's ripple
   std::optional<double> highest_Pa{};  ///< pressure difference up to which the valve is used; absent: 1.2 times the
                                        ///< calibrated one

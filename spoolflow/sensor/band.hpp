@@ -20,7 +20,8 @@ inline constexpr double most_environment_N = 1e5;
 template <class T>
 SPOOLFLOW_INLINE constexpr bool is_bench(const Environment<T>& environment) {
   return !(environment.position_m + environment.position_share + environment.current_share + environment.force_N +
-               environment.oil_temperature_K + environment.friction_share + environment.ripple_Pa >
+               environment.oil_temperature_K + environment.friction_share + environment.dithered_loop_A +
+               environment.ripple_Pa >
            T(0));
 }
 
@@ -52,6 +53,7 @@ struct EnvironmentEffects {
   T force_per_current_N_per_A;
   T sliding_N;   ///< friction while the spool slides, with what dither takes off
   T friction_N;  ///< the same without dither
+  bool dithered;
 };
 
 /// What the environment leaves open of the force that the pressure difference is estimated from [N], one standard
@@ -75,12 +77,15 @@ SPOOLFLOW_NOINLINE constexpr T environment_N(const ObserverParameters<T>& valve,
       edge.at(layer_at(at.oil_temperature_K + environment.oil_temperature_K), row, column_at(position_m), pressure_Pa);
   const T warmer_N = edge_effect_N(effects.edge, warmer, pressure_Pa, least);
   const T current_N = environment.current_share * at.current_A * effects.force_per_current_N_per_A;
+  // About the mean of the swing one iron keeps its loop (stops, Preisach), another's closes (Coleman and Hodgdon).
+  const T loop_N = effects.dithered ? environment.dithered_loop_A * effects.force_per_current_N_per_A : T(0);
   const T ripple_N = effects.edge.flow_force_per_pressure_N_Pa * environment.ripple_Pa;
   const T freed_N = smaller(ripple_N, effects.sliding_N);
   const T friction_N = environment.friction_share * effects.friction_N;
   const T breakaway_N = effects.edge.flow_force_per_pressure_N_Pa * at.breakaway_Pa;
-  const T all_N = sqrt(squared(environment.force_N) + squared(current_N) + squared(moved_N) + squared(warmer_N) +
-                       squared(ripple_N) + squared(freed_N) + squared(friction_N) + squared(breakaway_N));
+  const T all_N =
+      sqrt(squared(environment.force_N) + squared(current_N) + squared(loop_N) + squared(moved_N) + squared(warmer_N) +
+           squared(ripple_N) + squared(freed_N) + squared(friction_N) + squared(breakaway_N));
   return smaller(all_N, T(most_environment_N));
 }
 

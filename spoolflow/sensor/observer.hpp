@@ -147,7 +147,7 @@ SPOOLFLOW_INLINE constexpr void follow_half_widths(const ObserverParameters<T>& 
         environment_N(valve,
                       EnvironmentEffects<T>{balance.edge, balance.actuator.force_per_position_N_per_m,
                                             balance.actuator.force_per_current_N_per_A, balance.bounds.sliding_N,
-                                            balance.spool_friction_N + balance.armature_friction_N},
+                                            balance.spool_friction_N + balance.armature_friction_N, balance.dithered},
                       {state.oil.temperature_K, pressure.pressure_difference_Pa, position.position_m, current_A,
                        pressure.breakaway_Pa});
   pressure.half_widths = pressure_half_widths(

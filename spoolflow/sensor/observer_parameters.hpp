@@ -47,6 +47,7 @@ struct Environment {
   T current_share{};        ///< of the current's gain, or of its mean over a sample
   T force_N{};              ///< that acts on the spool beside those of the model: acceleration of the valve
   T friction_share{};       ///< of friction about what was calibrated
+  T dithered_loop_A{};      ///< of the magnetic loop under dither
   T ripple_Pa{};            ///< amplitude of the pressure difference's ripple
   T flow_share{};           ///< of the conductance: oil
   T leakage_m3_per_s{};     ///< past the metering edge

@@ -25,7 +25,9 @@ TEST(DeclaredMachine, TakesHalfWidthsForTwoStandardDeviationsAndVibrationForASin
   declared.density = 0.04;
   declared.vibration_m_per_s2 = 10;
   declared.pwm_ripple = 0.08;
+  declared.dithered_loop = 1;
   apply(declared, model);
+  EXPECT_DOUBLE_EQ(of(model).dithered_loop_A, 0.5 * model.observer->parameters.actuator.coercive_current_A);
   EXPECT_DOUBLE_EQ(of(model).position_m, 10e-6);
   EXPECT_DOUBLE_EQ(of(model).position_share, 0.01);
   EXPECT_DOUBLE_EQ(of(model).flow_share, 0.01);  // the flow goes with the root of the density

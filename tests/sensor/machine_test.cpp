@@ -185,6 +185,20 @@ TEST(DeclaredEnvironmentOfFlow, WidensTheBandByAShareOfTheFlowAndByLeakage) {
   EXPECT_NEAR(judged(leaking, run).mean_width(), std::hypot(bench, 4 * 0.02), 0.01);
 }
 
+TEST(DeclaredEnvironmentOfIron, AMagneticLoopThatMayCloseCountsAsACurrentUnderDitherAlone) {
+  constexpr double force_per_current_N_per_A = 50;
+  ObserverParameters<double> declared = valve();
+  const EdgePoint<double> edge = declared.edge.at(ClosedFormValve::drift_free_K, 60e5, 1.2e-3);
+  const auto open_N = [&](bool dithered) {
+    return environment_N(declared, EnvironmentEffects<double>{edge, 0, force_per_current_N_per_A, 3, 3, dithered},
+                         OperatingPoint<double>{ClosedFormValve::drift_free_K, 60e5, 1.2e-3, 1, 0});
+  };
+  EXPECT_NEAR(open_N(true), 0, 1e-9);
+  declared.environment.dithered_loop_A = 0.02;
+  EXPECT_NEAR(open_N(true), 1, 1e-9);
+  EXPECT_NEAR(open_N(false), 0, 1e-9);
+}
+
 TEST(DeclaredEnvironmentOfFriction, RippleAndFrictionOpenTheBandInMotionAndAtRest) {
   const auto run = run_of(stroke(60e5).rest(0.5, -0.3));
   const double bench = judged(valve(), run).mean_width();
