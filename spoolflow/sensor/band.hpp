@@ -214,7 +214,6 @@ SPOOLFLOW_INLINE constexpr PressureHalfWidths<T> pressure_half_widths(const Band
     widths.bias_Pa -= T(asymmetry_share) * (corrected_Pa - limited(corrected_Pa, -usual_Pa, usual_Pa));
     if (corrected_Pa > T(0)) widths.below_Pa = sqrt(squared(widths.below_Pa) + squared(corrected_Pa));
     if (corrected_Pa < T(0)) widths.above_Pa = sqrt(squared(widths.above_Pa) + squared(corrected_Pa));
-    if (balance.stopped) widths.below_Pa = pressure.pressure_difference_Pa;  // no force shows how far it has fallen
   }
   const bool corrected = !is_zero(pressure.constrained_correction_Pa) && !balance.sliding && !balance.closed;
   if (corrected) widths.bias_Pa += unobserved_Pa(pressure, balance);

@@ -51,9 +51,8 @@ struct ForceBalance {
   bool freed;    ///< by dither, both ways in each period
   bool settled;  ///< a whole period of dither, or a sample without dither, is there to measure by
   bool sliding;
-  bool slips;    ///< friction and inertia are in motion
-  bool closed;   ///< the spool covers the metering edge
-  bool stopped;  ///< on the open stop, which takes what opens beyond friction
+  bool slips;   ///< friction and inertia are in motion
+  bool closed;  ///< the spool covers the metering edge
 };
 
 /// One standard deviation of all forces together [N], from that of each. `moving_N` is that of what motion that the
@@ -144,8 +143,6 @@ SPOOLFLOW_INLINE constexpr ForceBalance<T> balance_forces(const ObserverParamete
   out.direction = travels || out.slips ? (position.travel_m > T(0) ? T(1) : T(-1)) : T(0);
   out.friction_N = out.sliding ? out.direction * out.bounds.sliding_N
                                : limited(out.residual_force_N, out.resting.lower_N, out.resting.upper_N);
-  out.stopped = position.position_m > valve.stopped_above_m;
-  if (out.stopped) out.residual_force_N = smaller(out.residual_force_N, out.friction_N);  // the stop takes the rest
   // Paper (1): the mass takes a part of the force; position shows it late, so that it is no surer than its size.
   T inertia_N{}, drop_N{};
   if (travels && !out.dithered) {

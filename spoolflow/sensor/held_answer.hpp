@@ -20,6 +20,7 @@ struct DoubtfulPlace {
   T position_m;
   T elsewhere_m;  ///< where it is instead, if it is not there
   bool fault;     ///< of the position signal
+  bool stopped;   ///< on the open stop
 };
 
 /// What passes at both places; beyond the centre as much as through the direction's own edge.

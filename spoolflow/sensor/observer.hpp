@@ -125,7 +125,6 @@ SPOOLFLOW_INLINE constexpr auto status(const ObserverParameters<T>& valve, const
   mark(out, balance.closed, Status::closed);
   mark(out, !balance.sliding, Status::spool_at_rest);
   mark(out, balance.dithered, Status::dithered);
-  mark(out, balance.stopped, Status::open_stop);
   mark(out, !balance.actuator.inside_map, Status::outside_force_map);
   const bool capped = is_capped(state.pressure, valve.highest_pressure_difference_Pa());
   mark(out, (!balance.edge.inside || capped) && !balance.closed, Status::outside_flow_force_map);
@@ -172,9 +171,10 @@ SPOOLFLOW_INLINE constexpr void answer(const ObserverParameters<T>& valve, const
   out.friction_force_N = balance.friction_N;
 }
 
-/// While the position signal or the current may be wrong, forces are not used: the flow where the spool is thought to
-/// stand, at the last estimate of the pressure difference, and in the band what that may have become. It holds what
-/// flows at the other place where the spool may be, too.
+/// While the position signal or the current may be wrong, and on the open stop, which holds what flow force and
+/// friction do not, forces are no evidence: the flow where the spool is thought to stand, at the last estimate of the
+/// pressure difference, and in the band what that may have become. It holds what flows at the other place where the
+/// spool may be, too.
 template <class T>
 SPOOLFLOW_NOINLINE constexpr void answer_in_doubt(ObserverState<T>& state, const ObserverParameters<T>& valve,
                                                   const Sample<T>& sample, const DoubtfulPlace<T>& position,
@@ -189,7 +189,7 @@ SPOOLFLOW_NOINLINE constexpr void answer_in_doubt(ObserverState<T>& state, const
   const PressureHalfWidths<T> widths = unobserved_half_widths(valve.band, state.pressure, state.force_errors, edge);
   PressureBand<T> band = pressure_band(state.pressure, widths, highest_Pa);
   const CoilResistanceState<T>& coil = state.actuator.coil_resistance;
-  if (coil.unanswered) band = {T(0), band.expected_Pa, highest_Pa};
+  if (coil.unanswered || position.stopped) band = {T(0), band.expected_Pa, highest_Pa};
   Estimate<T>& out = state.last;
   answer_flow(valve,
               passage_at(valve.edge, edge, {state.pressure, state.force_errors, state.oil.temperature_K}, position),
@@ -202,6 +202,7 @@ SPOOLFLOW_NOINLINE constexpr void answer_in_doubt(ObserverState<T>& state, const
   mark(out.status, !actuator.inside_map, Status::outside_force_map);
   mark(out.status, !edge.temperature_inside, Status::outside_temperature);
   mark(out.status, sample.current_A > valve.largest_current_A, Status::current_saturated);
+  mark(out.status, position.stopped, Status::open_stop);
   mark(out.status, position.fault, Status::position_fault);
   mark(out.status, coil.implausible || coil.unanswered, Status::coil_fault);
   mark(out.status, state.oil.fault_s > T(0), Status::temperature_fault);
@@ -278,9 +279,10 @@ SPOOLFLOW_INLINE constexpr void observe(const ObserverParameters<T>& valve, Obse
                                         const Dither<T>& dither, const Schedule<T>& schedule, T opposing_N,
                                         bool begins) {
   if (schedule.oil_temperature.now || begins) state.oil_layer = valve.edge.layer_at(state.oil.temperature_K);
-  if (unlikely(position.fault || state.actuator.coil_resistance.unanswered)) {
-    answer_in_doubt(state, valve, sample, {position.position_m, position.elsewhere_m, position.fault}, opposing_N,
-                    begins);
+  const bool stopped = position.position_m > valve.stopped_above_m;
+  if (unlikely(position.fault || state.actuator.coil_resistance.unanswered || stopped)) {
+    answer_in_doubt(state, valve, sample, {position.position_m, position.elsewhere_m, position.fault, stopped},
+                    opposing_N, begins);
     return;
   }
   observe_forces(valve, state, sample, position, dither, schedule, opposing_N, begins);
