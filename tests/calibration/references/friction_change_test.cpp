@@ -47,13 +47,14 @@ TEST(FrictionChange, StaysWhereTheReferencesAgreeWithTheModelAndIsTakenWhereOthe
   EXPECT_TRUE(friction_change(std::vector{healthy}).taken);
 }
 
-TEST(FrictionChange, LessFrictionIsNoWearAndNeedsEvidenceOfItsOwn) {
-  const SeenFriction more = direction(0.235, 0.235, 0.1), less = direction(-0.235, -0.235, 0.1);
-  const Change up = friction_change(std::vector{more}), down = friction_change(std::vector{less});
-  EXPECT_NEAR(up.evidence, down.evidence, 0.05);
-  EXPECT_TRUE(up.taken);
-  EXPECT_FALSE(down.taken);
-  EXPECT_TRUE(friction_change(std::vector{direction(-0.5, -0.5, 0.1)}).taken);
+TEST(FrictionChange, MoreAndLessFrictionAreTakenByTheSameEvidence) {
+  for (const double log_ratio : {0.235, 0.5}) {
+    const Change up = friction_change(std::vector{direction(log_ratio, log_ratio, 0.1)}),
+                 down = friction_change(std::vector{direction(-log_ratio, -log_ratio, 0.1)});
+    EXPECT_NEAR(up.evidence, down.evidence, 0.05);
+    EXPECT_EQ(up.taken, log_ratio > 0.4);
+    EXPECT_EQ(down.taken, log_ratio > 0.4);
+  }
 }
 
 TEST(FrictionChange, OilThatAsksForWiderEdgesIsEvidenceOfItsOwn) {
