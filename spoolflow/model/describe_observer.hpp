@@ -309,8 +309,8 @@ void describe_observer(Parameters& parameters, Visitor&& visitor) {
       parameters.closed_below_m);
   visitor.number({.key = "stopped_above_m",
                   .unit = "m",
-                  .limits = {0, sensor::no_open_stop_m},
-                  .meaning = "positions above this count as on the open stop; 1: none is known",
+                  .limits = {0, 2 * sensor::no_open_stop_m},
+                  .meaning = "positions above this count as on the open stop; about 1: none is known",
                   .otherwise = sensor::no_open_stop_m},
                  parameters.stopped_above_m);
   visitor.number({.key = "largest_current_A",

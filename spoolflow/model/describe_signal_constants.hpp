@@ -179,6 +179,10 @@ void describe_closed_constants(Visitor& visitor) {
   visitor.constant(
       {.name = "longest_unmoved_s", .unit = "s", .meaning = "a position that says so for longer is in doubt"},
       sensor::longest_unmoved_s);
+  visitor.constant({.name = "no_open_stop_m",
+                    .unit = "m",
+                    .meaning = "no spool gets there: the open stop of a valve of which none is known"},
+                   sensor::no_open_stop_m);
 }
 
 }  // namespace spoolflow::model

@@ -207,7 +207,7 @@ sensor::ObserverParameters<double> unit_parameters(const sensor::ObserverParamet
   vary_edge(out.edge, deviations);
   out.friction.ageing_s *= std::exp(deviations[at(Variation::ageing_time)]);
   out.closed_below_m = closed_below(type.closed_below_m, deviations);
-  out.stopped_above_m = std::min(shown_m(type.stopped_above_m, deviations), sensor::no_open_stop_m);
+  out.stopped_above_m = shown_m(type.stopped_above_m, deviations);
   return out;
 }
 
