@@ -154,8 +154,7 @@ std::string looks_alike(const MachineEvidence& evidence, const EdgeChange& edge)
   if (std::isinf(edge.misstated) || !(edge.asked > 0) || !(edge.evidence > 0)) return {};
   return fmt::format(
       "a stated {} that is {:.0f} % too large looks alike (probability {:.0f} %), and the band holds both; check it, "
-      "or "
-      "give a second reference (another cylinder, a pump, a meter)",
+      "or give a second reference (another cylinder, a pump, a meter)",
       stated_by(evidence), percent * too_large(edge), percent / (1 + std::exp(-edge.misstated)));
 }
 
