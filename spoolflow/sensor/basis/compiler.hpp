@@ -8,7 +8,9 @@
 
 #if defined(__GNUC__) && !defined(SPOOLFLOW_STANDARD_CPP)
 #define SPOOLFLOW_EXTENSIONS 1
+#ifndef SPOOLFLOW_INLINE  // a build may leave it empty: the same answers
 #define SPOOLFLOW_INLINE [[gnu::always_inline]]
+#endif
 #define SPOOLFLOW_NOINLINE [[gnu::noinline]]
 #define SPOOLFLOW_FLATTEN [[gnu::flatten]]
 #define SPOOLFLOW_INLINE_LAMBDA __attribute__((always_inline))
