@@ -50,9 +50,8 @@ std::vector<UnitParameter> compared(const UnitFit& fit, const KnownDeviations& t
 }
 
 std::string written(const UnitParameter& parameter) {
-  const WrittenUnit unit = written_unit(parameter.unit);
-  return fmt::format("{} {:+.3g} {} ({:.1f} standard deviations)", parameter.name, unit.scale * parameter.value,
-                     unit.name, std::abs(parameter.deviations));
+  return fmt::format("{} {} ({:.1f} standard deviations)", parameter.name,
+                     written_deviation(parameter.unit, parameter.value), std::abs(parameter.deviations));
 }
 
 /// The worst first, up to four.

@@ -8,14 +8,6 @@
 #include "spoolflow/numerics/equations/symmetric_equations.hpp"
 
 namespace spoolflow::calibration {
-namespace {
-
-std::string written(std::size_t variation, double value) {
-  const WrittenUnit unit = written_unit(all_variations()[variation].unit);
-  return fmt::format("{:+.3g} {}", unit.scale * value, unit.name);
-}
-
-}  // namespace
 
 Disagreement disagreement_of(const KnownDeviations& one, const KnownDeviations& other, const KnownDeviations& prior) {
   // What a recording has shown is what it took off the prior's covariance; its mean is so much of the unit's
@@ -34,6 +26,7 @@ Disagreement disagreement_of(const KnownDeviations& one, const KnownDeviations& 
 }
 
 std::string disagreeing_runs(const model::Model& type, const KnownDeviations& prior, const std::vector<UnitRun>& runs) {
+  if (runs.size() < 2) return {};
   std::vector<KnownDeviations> said;
   std::vector<std::string> files;
   for (const UnitRun& run : runs) {
@@ -49,13 +42,13 @@ std::string disagreeing_runs(const model::Model& type, const KnownDeviations& pr
       const Disagreement found = disagreement_of(said[j], said[k], prior);
       if (!(found.chi_square > worst)) continue;
       worst = found.chi_square;
+      const VariationAbout& about = all_variations()[found.variation];
       out = fmt::format(
           "{} and {} are hardly of one unit: {} is {} by the one and {} by the other, {:.1f} standard deviations "
           "apart (all directions: chi square {:.0f}, and of one unit {:g} at most); look whose recordings they are, "
-          "and "
-          "whether position sensor and spring stayed as they were between them",
-          files[j], files[k], all_variations()[found.variation].name, written(found.variation, found.one),
-          written(found.variation, found.other), found.deviations, found.chi_square, disagreeing_chi_square);
+          "and whether position sensor and spring stayed as they were between them",
+          files[j], files[k], about.name, written_deviation(about.unit, found.one),
+          written_deviation(about.unit, found.other), found.deviations, found.chi_square, disagreeing_chi_square);
     }
   }
   return out;

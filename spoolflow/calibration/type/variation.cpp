@@ -1,5 +1,7 @@
 #include "spoolflow/calibration/type/variation.hpp"
 
+#include <fmt/format.h>
+
 namespace spoolflow::calibration {
 
 const std::array<VariationAbout, variations>& all_variations() {
@@ -22,6 +24,11 @@ const std::array<VariationAbout, variations>& all_variations() {
       {"position_gain", "1", 0.003, "gain of the position sensor", "after setting"},
   }};
   return about;
+}
+
+std::string written_deviation(std::string_view unit, double value) {
+  const auto [scale, name] = written_unit(unit);
+  return fmt::format("{:+.3g} {}", scale * value, name);
 }
 
 }  // namespace spoolflow::calibration

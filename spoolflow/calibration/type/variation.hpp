@@ -2,6 +2,7 @@
 /// How one unit of a type differs from the next: a handful of directions in physics, each one number.
 #include <array>
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace spoolflow::calibration {
@@ -50,6 +51,8 @@ struct WrittenUnit {
   if (unit == "ln") return {1, "ln"};
   return unit == "m" ? WrittenUnit{1e6, "um"} : WrittenUnit{1e2, "%"};
 }
+/// A deviation in that unit: "-4.36 %".
+[[nodiscard]] std::string written_deviation(std::string_view unit, double value);
 
 [[nodiscard]] constexpr std::size_t at(Variation variation) {
   return static_cast<std::size_t>(variation);
