@@ -1,6 +1,7 @@
 #include "spoolflow/numerics/meter_lag.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace spoolflow::numerics {
@@ -51,15 +52,58 @@ class UnexplainedChanges {
   std::vector<double> shown_;
 };
 
-}  // namespace
+/// Standard deviation of what the metered flow leaves of `reference`, a gain and an offset taken out.
+class UnexplainedLevels {
+ public:
+  UnexplainedLevels(std::span<const double> time_s, std::span<const double> flow, std::span<const double> reference)
+      : time_s_(time_s), flow_(flow), reference_(reference) {}
 
-std::optional<MeterLag> find_meter_lag(std::span<const double> time_s, std::span<const double> flow,
-                                       std::span<const double> reference, std::size_t least_samples) {
-  std::size_t both = 0;
-  for (std::size_t k = 0; k < time_s.size(); ++k)
-    both += std::isfinite(flow[k]) && std::isfinite(reference[k]) ? 1U : 0U;
-  if (both < least_samples) return std::nullopt;
-  UnexplainedChanges unexplained(time_s, flow, reference);
+  double operator()(const MeterLag& meter) {
+    shown_.assign(flow_.begin(), flow_.end());
+    apply_lag<double>(time_s_, shown_, meter);
+    return std::sqrt(std::max(0.0, moments().left()));
+  }
+
+  /// Of a flow that never changes.
+  [[nodiscard]] double of_reference() {
+    shown_.assign(flow_.size(), 0.0);
+    return std::sqrt(std::max(0.0, moments().all()));
+  }
+
+ private:
+  /// Sums over the samples that have both.
+  struct Moments {
+    double count = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+
+    [[nodiscard]] double all() const { return (yy - y * y / count) / count; }
+    [[nodiscard]] double left() const {
+      const double of_flow = xx - x * x / count, common = xy - x * y / count;
+      return of_flow > 0 ? all() - common * common / of_flow / count : all();
+    }
+  };
+
+  [[nodiscard]] Moments moments() const {
+    Moments out;
+    for (std::size_t k = 0; k < shown_.size(); ++k) {
+      const double x = shown_[k], y = reference_[k];
+      if (!std::isfinite(x) || !std::isfinite(y)) continue;
+      out.count += 1;
+      out.x += x;
+      out.y += y;
+      out.xx += x * x;
+      out.xy += x * y;
+      out.yy += y * y;
+    }
+    return out;
+  }
+
+  std::span<const double> time_s_, flow_, reference_;
+  std::vector<double> shown_;
+};
+
+/// The meter that leaves least unexplained; none where that is too much.
+template <class Unexplained>
+std::optional<MeterLag> least_unexplained(Unexplained&& unexplained) {
   MeterLag best;
   double least = unexplained(best);
   const auto try_lag = [&](const MeterLag& meter) {
@@ -85,6 +129,26 @@ std::optional<MeterLag> find_meter_lag(std::span<const double> time_s, std::span
   }
   if (least < most_unexplained_share * unexplained.of_reference()) return best;
   return std::nullopt;
+}
+
+bool has_samples(std::span<const double> flow, std::span<const double> reference, std::size_t least_samples) {
+  std::size_t both = 0;
+  for (std::size_t k = 0; k < flow.size(); ++k) both += std::isfinite(flow[k]) && std::isfinite(reference[k]) ? 1U : 0U;
+  return both >= least_samples;
+}
+
+}  // namespace
+
+std::optional<MeterLag> find_meter_lag(std::span<const double> time_s, std::span<const double> flow,
+                                       std::span<const double> reference, std::size_t least_samples) {
+  if (!has_samples(flow, reference, least_samples)) return std::nullopt;
+  return least_unexplained(UnexplainedChanges(time_s, flow, reference));
+}
+
+std::optional<MeterLag> find_lag_of_known_flow(std::span<const double> time_s, std::span<const double> flow,
+                                               std::span<const double> reference, std::size_t least_samples) {
+  if (!has_samples(flow, reference, least_samples)) return std::nullopt;
+  return least_unexplained(UnexplainedLevels(time_s, flow, reference));
 }
 
 }  // namespace spoolflow::numerics

@@ -64,4 +64,9 @@ void apply_lag(std::span<const double> time_s, std::span<Number> values, const M
 std::optional<MeterLag> find_meter_lag(std::span<const double> time_s, std::span<const double> flow,
                                        std::span<const double> reference, std::size_t least_samples = 1000);
 
+/// The same where `flow` is known, as from a metering edge and the measured pressure difference over it. It is judged
+/// by its levels, a gain and an offset taken out: so slow strokes beside a noisy meter show the lag, too.
+std::optional<MeterLag> find_lag_of_known_flow(std::span<const double> time_s, std::span<const double> flow,
+                                               std::span<const double> reference, std::size_t least_samples = 1000);
+
 }  // namespace spoolflow::numerics

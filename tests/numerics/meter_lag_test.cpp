@@ -64,11 +64,31 @@ TEST(MeterLag, IsNotFoundWhereItWouldButSmoothTheFlowsOwnErrors) {
   std::vector<double> wrong = course.flow;
   for (std::size_t k = 0; k < wrong.size(); ++k) wrong[k] += (k / 150) % 2 == 0 ? 2.0 : -2.0;
   EXPECT_FALSE(find_meter_lag(course.time_s, wrong, course.flow));
+  EXPECT_FALSE(find_lag_of_known_flow(course.time_s, std::vector<double>(wrong.size(), 1.0), course.flow));
+}
+
+TEST(MeterLag, OfAKnownFlowShowsBesideSlowStrokesAndANoisyMeterThatReadsTooMuch) {
+  std::vector<double> time_s, flow;
+  for (int k = 0; k < 40'000; ++k) {
+    time_s.push_back(1e-3 * k);
+    flow.push_back(k < 20'000 ? 0.005 * k : 0.005 * (40'000 - k));  // of 100, at 5 a second
+  }
+  for (const MeterLag& meter : {MeterLag{0, 0.03}, MeterLag{0, 0.1}, MeterLag{0, 0}}) {
+    std::vector<double> shown = flow;
+    apply_lag<double>(time_s, shown, meter);
+    std::minstd_rand random(3);
+    for (double& value : shown) value = 1.02 * value + 0.5 + 5e-3 * (static_cast<double>(random() % 200) - 100);
+    const std::optional<MeterLag> found = find_lag_of_known_flow(time_s, flow, shown);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->dead_time_s + found->lag_s, meter.lag_s, 0.002) << meter.lag_s;
+    EXPECT_FALSE(find_meter_lag(time_s, flow, shown)) << "its changes drown in noise";
+  }
 }
 
 TEST(MeterLag, TooFewSamplesShowNone) {
   const std::vector<double> few(10, 1.0);
   EXPECT_FALSE(find_meter_lag(few, few, few));
+  EXPECT_FALSE(find_lag_of_known_flow(few, few, few));
 }
 
 }  // namespace

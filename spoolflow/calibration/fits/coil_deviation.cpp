@@ -54,7 +54,7 @@ CoilDeviation deviation_while_held(const CoilTask& task, std::size_t h, const Co
   const auto& force_map = task.magnetic_force.map;
   const double largest_A = force_map.row_axis.at(sensor::force_map_currents - 1);
   const auto first = static_cast<Eigen::Index>(map_corrections * h);
-  CoilDeviation out{0, Eigen::VectorXd::Zero(local), Eigen::MatrixXd::Zero(local, local)};
+  CoilDeviation out{0, Eigen::VectorXd::Zero(local), Eigen::MatrixXd::Zero(local, local), {}};
   Eigen::Matrix<double, local, 1> row;
   std::array<Dual, coil_unknowns> seeded;
   for (std::size_t n = 0; n < seeded.size(); ++n) {
@@ -73,6 +73,7 @@ CoilDeviation deviation_while_held(const CoilTask& task, std::size_t h, const Co
       row(coil_unknowns + c) = power;
       power *= current_A.value / largest_A;
     }
+    out.parts[task.samples.test[k]].add(deviation_N);
     row *= task.weight[k];
     deviation_N *= task.weight[k];
     out.sum_of_squares += deviation_N * deviation_N;
@@ -106,11 +107,12 @@ CoilDeviation coil_deviation(const CoilTask& task, const CoilUnknowns& unknowns,
                      [&](std::size_t h) { parts[h] = deviation_while_held(task, h, unknowns, corrections_N); });
 
   const Eigen::Index all = coil_unknowns + corrections_N.size();
-  CoilDeviation out{0, Eigen::VectorXd::Zero(all), Eigen::MatrixXd::Zero(all, all)};
+  CoilDeviation out{0, Eigen::VectorXd::Zero(all), Eigen::MatrixXd::Zero(all, all), {}};
   for (std::size_t h = 0; h < parts.size(); ++h) {
     const Eigen::Index own = coil_unknowns + static_cast<Eigen::Index>(map_corrections * h);
     const CoilDeviation& part = parts[h];
     out.sum_of_squares += part.sum_of_squares;
+    for (const auto& [test, left] : part.parts) out.parts[test] += left;
     out.gradient.head(coil_unknowns) += part.gradient.head(coil_unknowns);
     out.gradient.segment(own, map_corrections) = part.gradient.tail(map_corrections);
     out.curvature.topLeftCorner(coil_unknowns, coil_unknowns) +=

@@ -1,11 +1,13 @@
 #pragma once
 /// The force that the sensor's coil predicts against the load cell, with its derivatives.
 #include <array>
+#include <map>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "spoolflow/calibration/fits/solenoid_samples.hpp"
+#include "spoolflow/calibration/numerics/fit_residual.hpp"
 #include "spoolflow/sensor/coil.hpp"
 #include "spoolflow/sensor/force_maps.hpp"
 
@@ -44,6 +46,7 @@ struct CoilDeviation {
   double sum_of_squares = 0;
   Eigen::VectorXd gradient;
   Eigen::MatrixXd curvature;
+  std::map<int, FitResidual> parts;  ///< deviations [N] of each part of the protocol, all counted samples alike
 };
 
 /// Runs the sensor's own coil along all samples with automatic differentiation; held positions side by side.

@@ -11,14 +11,17 @@
 #include "spoolflow/calibration/numerics/fitted_parameters.hpp"
 #include "spoolflow/calibration/numerics/nonnegative_least_squares.hpp"
 #include "spoolflow/numerics/equations/symmetric_equations.hpp"
+#include "spoolflow/numerics/median.hpp"
 
 namespace spoolflow::calibration {
 namespace {
 
-/// Every part of the protocol counts alike, whatever its sample rate. Left out: what follows a step of the current
-/// that the samples do not resolve.
-std::vector<double> weights(const SolenoidSamples& samples, double largest_A, const std::vector<int>& only) {
+/// Every part of the protocol counts alike, whatever its sample rate, or by its share. Left out: what follows a step of
+/// the current that the samples do not resolve, and negative current, for which the force map holds no force.
+std::vector<double> weights(const SolenoidSamples& samples, double largest_A, const std::vector<int>& only,
+                            const std::map<int, double>& shares = {}) {
   constexpr std::size_t unresolved_samples = 10;
+  const double noise_A = 0.01 * largest_A;
   std::vector<double> out(samples.size(), 0.0);
   std::map<int, double> count;
   std::size_t resolved_from = 0;
@@ -27,12 +30,17 @@ std::vector<double> weights(const SolenoidSamples& samples, double largest_A, co
                       std::abs(samples.samples[k].current_A - samples.samples[k - 1].current_A) > 0.1 * largest_A;
     if (step) resolved_from = k + unresolved_samples;
     const int test = samples.test[k];
-    if (k < resolved_from || (!only.empty() && std::find(only.begin(), only.end(), test) == only.end())) continue;
+    if (k < resolved_from || samples.samples[k].current_A < -noise_A ||
+        (!only.empty() && std::find(only.begin(), only.end(), test) == only.end()))
+      continue;
     out[k] = 1;
     count[test] += 1;
   }
   for (std::size_t k = 0; k < samples.size(); ++k)
-    if (out[k] > 0) out[k] = std::sqrt(1000 / count[samples.test[k]]);
+    if (out[k] > 0) {
+      const int test = samples.test[k];
+      out[k] = std::sqrt(1000 * (shares.empty() ? 1.0 : shares.at(test)) / count[test]);
+    }
   return out;
 }
 
@@ -119,6 +127,20 @@ Trial solve(const CoilTask& task, const CoilUnknowns& start, double coercive_A) 
     }
   }
   return best;
+}
+
+/// Squares of deviations count by their variance: a part that the coil's model does not describe, as sines are where
+/// eddy currents have several stages, must not bend the loops of the others. The mean share is 1.
+std::map<int, double> shares_by_what_is_left(const std::map<int, FitResidual>& parts) {
+  constexpr double least_share_of_median = 0.25;  // a part with hardly any samples may meet them all
+  std::vector<double> variances_N2;
+  for (const auto& [test, left] : parts) variances_N2.push_back(left.rms() * left.rms());
+  const double least_N2 = least_share_of_median * numerics::median(variances_N2);
+  std::map<int, double> shares;
+  double sum = 0;
+  for (const auto& [test, left] : parts) sum += shares[test] = 1 / std::max({left.rms() * left.rms(), least_N2, 1e-12});
+  for (auto& [test, share] : shares) share *= static_cast<double>(parts.size()) / sum;
+  return shares;
 }
 
 double quantile(std::vector<double> values, double share) {
@@ -237,9 +259,14 @@ SolenoidDynamicsFit fit_solenoid_dynamics(const SolenoidSamples& given, const se
                                           const std::vector<int>& only) {
   const double largest_A = magnetic_force.map.row_axis.at(sensor::force_map_currents - 1);
   const SolenoidSamples samples = thinned(given, 0.01 * largest_A);
-  const CoilTask task{samples, coil, magnetic_force, held_armature(samples), weights(samples, largest_A, only)};
+  CoilTask task{samples, coil, magnetic_force, held_armature(samples), weights(samples, largest_A, only)};
   const double coercive_A = std::max(1e-4 * largest_A, sensor::saturated_output(coil.hysteresis, 0.5));
-  const Trial solution = solve(task, unknowns_of(coil), coercive_A);
+  Trial solution = solve(task, unknowns_of(coil), coercive_A);
+  constexpr int rounds = 3;
+  for (int round = 0; round < rounds; ++round) {
+    task.weight = weights(samples, largest_A, only, shares_by_what_is_left(solution.deviation.parts));
+    solution = solve(task, solution.unknowns, coercive_A);
+  }
 
   SolenoidDynamicsFit fit{};
   fit.coil = coil_with(task, solution.unknowns);

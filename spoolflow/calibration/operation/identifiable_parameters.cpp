@@ -40,8 +40,10 @@ double undithered_rest_s(const sensor::ObserverParameters<double>& parameters, c
 void assume_rest(sensor::ObserverParameters<double>& parameters) {
   constexpr double unknown_tolerance_N = 1.2;
   constexpr double unknown_backlash_m = 0.55e-6;
+  constexpr double unknown_friction_share = 0.15;
   parameters.friction.tolerance_N = unknown_tolerance_N;
   parameters.position_sensor.backlash_m = unknown_backlash_m;
+  parameters.band.friction_share = unknown_friction_share;
 }
 
 std::vector<OperationParameter> identifiable_parameters(const OperationTrial& trial, double full_scale_m3_per_s) {

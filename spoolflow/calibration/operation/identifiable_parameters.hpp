@@ -16,8 +16,8 @@ inline constexpr double least_score_share = 0.01;
 [[nodiscard]] double undithered_rest_s(const sensor::ObserverParameters<double>& parameters,
                                        const std::vector<OperatingRun>& runs);
 
-/// What friction at rest is taken for where no rest without dither shows it: what of it is too small, the sensor takes
-/// for pressure.
+/// What friction without dither is taken for where no rest without dither shows it: what of it is too small, the sensor
+/// takes for pressure, and how it changes with the speed of sliding is not known.
 void assume_rest(sensor::ObserverParameters<double>& parameters);
 
 /// Those of all parameters that these recordings identify.

@@ -35,7 +35,7 @@ std::vector<OperationParameter> operation_parameters() {
       {"breakaway_share", [](OperationTrial& trial) -> double& { return trial.parameters().friction.breakaway_share; },
        0.05, 0.4, rest},
       {"band_friction_share", [](OperationTrial& trial) -> double& { return trial.parameters().band.friction_share; },
-       0.01, 0.2, ShownBy::any_run},
+       0.01, 0.2, rest},
       {"position_backlash_m",
        [](OperationTrial& trial) -> double& { return trial.parameters().position_sensor.backlash_m; }, 5e-8, 4e-6,
        rest},

@@ -101,7 +101,8 @@ void replay(const sensor::ObserverParameters<double>& parameters, const std::vec
   }
 }
 
-/// The runs with the meters that they show beside the observer with these parameters.
+/// The runs with the meters that they show: beside the flow that the metering edge passes at the measured pressure
+/// difference, or where that was not recorded beside the observer with these parameters.
 [[nodiscard]] std::vector<OperatingRun> with_meters(const sensor::ObserverParameters<double>& parameters,
                                                     std::vector<OperatingRun> runs);
 

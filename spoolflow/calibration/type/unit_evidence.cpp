@@ -94,7 +94,7 @@ numerics::MeterLag UnitEvidence::meter_of(const Run& run, const recording::Recor
         std::sqrt(pressure_Pa));
     reference_m3_per_s.push_back(sample.flow_m3_per_s);
   }
-  return numerics::find_meter_lag(recording[Channel::time], flow_m3_per_s, reference_m3_per_s)
+  return numerics::find_lag_of_known_flow(recording[Channel::time], flow_m3_per_s, reference_m3_per_s)
       .value_or(numerics::MeterLag{});
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -32,6 +33,7 @@ recording::Recording recorded(sensor::ClosedFormRun run, double end_s) {
     out.column(Channel::voltage).push_back(sample.measured.voltage_V);
     out.column(Channel::position).push_back(sample.measured.position_m);
     out.column(Channel::oil_temperature).push_back(sample.measured.oil_temperature_K);
+    out.column(Channel::pressure_difference).push_back(sample.truth.pressure_difference_Pa);
     out.column(Channel::flow_reference).push_back(sample.flow_m3_per_s);
   }
   return out;
@@ -94,6 +96,22 @@ TEST(Operation, MovesAFrictionThatTheValveAtWorkHasShownBeforeLess) {
   const double of_rigs = found(false), of_work = found(true);
   EXPECT_LT(of_work, of_rigs - 0.01);
   EXPECT_GT(of_work, 1.1);  // where it is much off, it moves all the same
+}
+
+TEST(Operation, DoesNotTakeTheLagOfANoisyMeterForFriction) {
+  const sensor::ClosedFormValve valve;
+  recording::Recording run =
+      recorded(valve, sensor::Course({.position_m = 0.5e-3}).slide(2e-3, 12).slide(0.5e-3, 12), 1);
+  std::vector<double>& reference = run.column(Channel::flow_reference);
+  const numerics::MeterLag meter{.lag_s = 0.15};
+  numerics::apply_lag<double>(run[Channel::time], reference, meter);
+  std::minstd_rand random(3);
+  for (double& flow : reference)
+    flow += 1e-4 * (static_cast<double>(random() % 200) - 100) * valve.full_scale_m3_per_s();
+  sensor::ObserverParameters<double> parameters = sensor::closed_form_observer<double>(valve);
+  const OperationFit fit = fit_operation(parameters, only(run), {valve.full_scale_m3_per_s()}, [](double) {});
+  EXPECT_NEAR(fit.meters.front().dead_time_s + fit.meters.front().lag_s, meter.lag_s, 0.01);
+  EXPECT_NEAR(parameters.friction.operation_ratio, 1, 0.06);
 }
 
 TEST(Operation, TakesFrictionAtRestAsAssumedWhereEveryRecordingIsDithered) {
