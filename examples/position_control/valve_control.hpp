@@ -30,10 +30,6 @@ struct ControlSettings {
 /// What of the sensor's answer the controller goes by.
 enum class Trust : std::uint32_t { flow = 0, position_alone = 1, feed_forward_alone = 2, nothing = 3 };
 
-inline Status without(Status status, Status bit) {
-  return static_cast<Status>(static_cast<std::uint32_t>(status) & ~static_cast<std::uint32_t>(bit));
-}
-
 /// Faults of the inputs, the gravest first. Limits are no reason not to trust: the band has them in it.
 inline Trust trust_in(Status status) {
   if (has(status, Status::sample_missing | Status::time_fault)) return Trust::nothing;

@@ -45,7 +45,7 @@ struct ActuatorEstimate {
   T friction_half_width_N{};      ///< armature friction while it slides, >= 0; its sign is that of the velocity
   T force_per_current_N_per_A{};  ///< what an error of the current means for the force
   T force_per_position_N_per_m{};
-  bool inside_map{};  ///< current and position lie within what was calibrated
+  bool inside_map = true;  ///< current and position lie within what was calibrated; `follow_force` tells it otherwise
 };
 
 static_assert(std::is_trivially_copyable_v<ActuatorParameters<float>>);
@@ -72,13 +72,13 @@ constexpr T unknown_memory_A(const ActuatorParameters<T>& actuator, const Actuat
 
 /// Diagnosis of the coil by its voltage, from the same sample as the step before it; a NaN or a coil whose resistance
 /// was never calibrated says nothing. Every sample counts in the mean; the rest runs where it is `due`, at least
-/// `due.since_s` after the last time.
+/// `due.since_s()` after the last time.
 template <class T>
 SPOOLFLOW_INLINE constexpr void follow_coil(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
                                             const Sample<T>& sample, T largest_current_A, const Due<T>& due) {
   collect(state.coil_resistance, {sample.current_A, sample.voltage_V, state.coil.flux_rate_V}, sample.time_step_s);
-  const bool waited = state.coil_resistance.collected_s > due.since_s - T(0.5) * sample.time_step_s;
-  if (due.now && waited && is_number(sample.voltage_V)) {
+  const auto waited = [&] { return state.coil_resistance.collected_s > due.since_s() - T(0.5) * sample.time_step_s; };
+  if (due.now && waited() && is_number(sample.voltage_V)) {
     const CoilResistance<T>& coil = actuator.coil_resistance;
     const T least_A = T(resistance_current_share) * largest_current_A;
     follow_resistance(coil, state.coil_resistance, {take_up(state.coil_resistance), least_A});
@@ -86,16 +86,30 @@ SPOOLFLOW_INLINE constexpr void follow_coil(const ActuatorParameters<T>& actuato
   }
 }
 
+template <class T>
+constexpr Cell<T> flux_position(const ActuatorParameters<T>& actuator, T position_m) {
+  return locate<flux_map_positions>(actuator.coil.flux_linkage.map.column_axis, position_m);
+}
+
+/// Nothing is known of the coil's history.
+template <class T>
+SPOOLFLOW_NOINLINE constexpr void begin(const ActuatorParameters<T>& actuator, ActuatorState<T>& state, T current_A,
+                                        T position_m) {
+  begin(actuator.coil, state.coil, current_A, flux_position(actuator, position_m));
+  state.lowest_flux_Wb = state.highest_flux_Wb = state.coil.hysteresis.flux;
+}
+
 /// The coil's part of one sample: its flux linkage and magnetising current follow the coil current. It starts again at
 /// the first, and where a coil current that no coil has, or a leap in time, left a flux that no coil has.
 template <class T>
 SPOOLFLOW_INLINE constexpr void magnetise(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
-                                          const Sample<T>& sample, bool first) {
-  const bool begins = first || !is_number(state.coil.magnetising_current_A);
-  const Cell<T> flux_position =
-      locate<flux_map_positions>(actuator.coil.flux_linkage.map.column_axis, sample.position_m);
-  follow_current(actuator.coil, state.coil, {sample.time_step_s, sample.current_A}, flux_position, begins);
-  if (begins) state.lowest_flux_Wb = state.highest_flux_Wb = state.coil.hysteresis.flux;
+                                          const Sample<T>& sample) {
+  if (unlikely(!is_number(state.coil.magnetising_current_A))) {
+    begin(actuator, state, sample.current_A, sample.position_m);
+    return;
+  }
+  follow_current(actuator.coil, state.coil, {sample.time_step_s, sample.current_A},
+                 flux_position(actuator, sample.position_m));
 }
 
 /// What the magnetic force may be wrong by, and the armature's friction.
@@ -111,29 +125,41 @@ SPOOLFLOW_INLINE constexpr void judge_force(const ActuatorParameters<T>& actuato
   state.friction_half_width_N = actuator.friction_N.at(current, position).value;
 }
 
-/// One sample. `position_m` is free of faults and drift. Current and position
-/// must be finite; nothing else of the sample is read. Any time step from 50 us to 5 ms. Uncertainty and friction,
-/// which are slow, may be those of an earlier sample where they are not `judged`.
-template <class T>
-SPOOLFLOW_INLINE constexpr ActuatorEstimate<T> step(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
-                                                    const Sample<T>& sample, bool first, bool judged = true) {
-  magnetise(actuator, state, sample, first);
+/// One sample after the first. `position_m` is free of faults and drift. Current and position must be finite; nothing
+/// else of the sample is read. Any time step from 50 us to 5 ms. Uncertainty and friction, which are slow, may be those
+/// of an earlier sample where they are not `judged`. `outside()` is called where current or position lie outside of the
+/// force map.
+template <class T, class Outside>
+SPOOLFLOW_INLINE constexpr ActuatorEstimate<T> follow_force(const ActuatorParameters<T>& actuator,
+                                                            ActuatorState<T>& state, const Sample<T>& sample,
+                                                            bool judged, const Outside& outside) {
+  magnetise(actuator, state, sample);
   const auto& force_map = actuator.magnetic_force.map;
-  bool inside = true;
-  const Cell<T> current = locate<force_map_currents>(force_map.row_axis, state.coil.magnetising_current_A, inside);
-  const Cell<T> position = locate<force_map_positions>(force_map.column_axis, sample.position_m, inside);
+  const Cell<T> current = locate<force_map_currents>(force_map.row_axis, state.coil.magnetising_current_A, outside);
+  const Cell<T> position = locate<force_map_positions>(force_map.column_axis, sample.position_m, outside);
   const MapPoint<T> force = force_map.at(current, position);
   T force_N = force.value;
   if (judged)
     judge_force(actuator, state, current, position, force.row_slope, sample.current_A - state.coil.static_current_A);
   // Above the largest current of the map the force goes on with its slope, which saturation makes too large.
   const T largest_A = force_map.row_axis.at(force_map_currents - 1);
-  if (unlikely(state.coil.magnetising_current_A > largest_A)) {
+  if (unlikely(current.index == force_map_currents - 2 && state.coil.magnetising_current_A > largest_A)) {
     const T beyond_N = force.row_slope * (state.coil.magnetising_current_A - largest_A);
     force_N += beyond_N;
     if (judged) state.uncertainty_N += T(saturation_share) * beyond_N;
   }
-  return {force_N, state.uncertainty_N, state.friction_half_width_N, force.row_slope, force.column_slope, inside};
+  return {force_N, state.uncertainty_N, state.friction_half_width_N, force.row_slope, force.column_slope};
+}
+
+/// One sample, where the `first` begins.
+template <class T>
+constexpr ActuatorEstimate<T> step(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
+                                   const Sample<T>& sample, bool first, bool judged = true) {
+  if (first) forget(state.coil);
+  bool inside = true;
+  ActuatorEstimate<T> out = follow_force(actuator, state, sample, judged, [&] { inside = false; });
+  out.inside_map = inside;
+  return out;
 }
 
 }  // namespace spoolflow::sensor

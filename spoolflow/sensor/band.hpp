@@ -233,8 +233,8 @@ SPOOLFLOW_INLINE constexpr PressureBand<T> pressure_band(const PressureState<T>&
   T most_Pa = estimate_Pa + widths.above_Pa;
   if (most_Pa > usual_Pa)
     most_Pa = is_capped(pressure, highest_Pa) ? smaller(most_Pa, T(capped_pressure_reach) * highest_Pa) : usual_Pa;
-  return {at_least_zero(estimate_Pa - widths.below_Pa),
-          smaller(at_least_zero(estimate_Pa + widths.bias_Pa), highest_Pa), most_Pa};
+  return {at_least_zero(estimate_Pa - widths.below_Pa), from_zero_to(highest_Pa, estimate_Pa + widths.bias_Pa),
+          most_Pa};
 }
 
 /// Variance of the flow rate that the machine around the valve leaves open beside the pressure difference [m6/s2].
@@ -270,8 +270,9 @@ inline constexpr double least_likelihood = 0.05;
 /// Where the actuator may have stalled the expected flow is that much less, and the band holds none.
 template <class T>
 constexpr void admit_stall(const ForceBalance<T>& balance, T pressure_difference_Pa, T highest_Pa, Estimate<T>& out) {
+  const T reach_Pa = T(stalled_pressure_reach * stalled_pressure_share) * highest_Pa;
+  if (!lies_below(pressure_difference_Pa, reach_Pa) || balance.closed) return;
   const T stalled_Pa = T(stalled_pressure_share) * highest_Pa;
-  if (!(pressure_difference_Pa < T(stalled_pressure_reach) * stalled_Pa) || balance.closed) return;
   const T stalled_N = T(stalled_friction_share) * (balance.spool_friction_N + balance.armature_friction_N);
   const T size2 = squared(pressure_difference_Pa / stalled_Pa) + squared(balance.edge.flow_force_N / stalled_N);
   const T stalled = T(1) / (T(1) + squared(size2));

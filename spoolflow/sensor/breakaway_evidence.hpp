@@ -27,15 +27,14 @@ SPOOLFLOW_INLINE constexpr T breakaway_limit_N(const FrictionParameters<T>& fric
 
 template <class T>
 SPOOLFLOW_INLINE constexpr ForceInnovation<T> breakaway_innovation(const FrictionParameters<T>& friction,
-                                                                   const ForceBalance<T>& balance,
-                                                                   T friction_slope_N_per_Pa) {
+                                                                   const ForceBalance<T>& balance, T friction_ratio) {
   const T aged = ageing(friction, balance.resting.rested_s);
   const T limit_N = breakaway_limit_N(friction, balance);
   const T expected_N = balance.direction * at_least_zero(limit_N - balance.half_swing_N);
   const T loosened_N = balance.dithered ? T(loosened_ageing_share) * (aged - T(1)) * balance.spool_friction_N : T(0);
   return {balance.resting.breakaway_N - expected_N,
           whole_slope_N_per_Pa(balance.edge.flow_force_per_pressure_N_Pa,
-                               balance.direction * aged * friction_slope_N_per_Pa),
+                               balance.direction * aged * (friction_ratio * balance.edge.friction_per_pressure_N_Pa)),
           balance.direction * (aged * balance.edge.friction_N + balance.actuator.friction_half_width_N),
           sqrt(squared(balance.noise_N) + squared(loosened_N) + squared(friction.breakaway_share * limit_N))};
 }

@@ -82,7 +82,7 @@ constexpr T end_weight(T time_constant_per_step) {
   return T(0.5) + T(0.5) / (T(1) + time_constant_per_step * (T(2) + T(3) * time_constant_per_step));
 }
 
-/// Where to begin: a magnetising current, and the flux linkage there.
+/// Where a step begins: a magnetising current, and the flux linkage there.
 template <class T>
 struct CoilGuess {
   T current_A;
@@ -103,17 +103,15 @@ SPOOLFLOW_INLINE constexpr T predicted_change_A(const CoilState<T>& state, const
 ///
 ///     i_m + hysteresis(flux) + eddy(d flux/dt) = i,   flux = flux_linkage(i_m, x),
 ///
-/// in the mean over the step: one Newton step from the prediction. What it leaves is taken up by the next sample. Where
-/// a coil begins, `guess` is the prediction.
+/// in the mean over the step: one Newton step from the prediction. What it leaves is taken up by the next sample.
 template <class T>
 SPOOLFLOW_INLINE constexpr void solve_current(const Coil<T>& coil, CoilState<T>& state, const CoilStep<T>& step,
-                                              const CoilGuess<T>& guess, bool begins) {
+                                              const CoilGuess<T>& guess) {
   const T per_step = T(1) / larger(step.time_step_s, T(shortest_step_s));
   const T time_constant_per_step = state.time_constant_s * per_step;
   const T weight = end_weight(time_constant_per_step);
   const T target_A = step.current_A - (T(1) - weight) * state.static_current_A;
-  const T predicted_A =
-      (begins ? T(0) : predicted_change_A(state, guess, step.current_A, weight, time_constant_per_step));
+  const T predicted_A = predicted_change_A(state, guess, step.current_A, weight, time_constant_per_step);
   const T guessed_A = guess.current_A + predicted_A;
   const T guessed_Wb = guess.flux.value + guess.flux.row_slope * predicted_A;
   const HysteresisPoint<T> hysteresis = hysteresis_at(coil.hysteresis, state.hysteresis, guessed_Wb);
@@ -138,22 +136,37 @@ constexpr T moved_current_A(const Coil<T>& coil, T current_A, T position_m, T tr
 }
 
 template <class T>
-constexpr void demagnetise(CoilState<T>& state, T flux_Wb) {
-  demagnetise(state.hysteresis, flux_Wb);
-  state.static_current_A = T(0);
-  state.time_constant_s = T(0);
+constexpr CoilGuess<T> guess_at(const Coil<T>& coil, T current_A, const Cell<T>& position) {
+  const auto& map = coil.flux_linkage.map;
+  return {current_A, map.at(locate<flux_map_currents>(map.row_axis, current_A), position)};
 }
 
-/// Follows the coil current with the flux. The first sample begins: nothing is known of the coil's history, so that the
-/// iron is taken to lie in the middle of its loops, at rest. Costs no more than any other step.
+/// The first sample. Nothing is known of the coil's history, so that the iron is taken to lie in the middle of its
+/// loops, at rest.
+template <class T>
+constexpr void begin(const Coil<T>& coil, CoilState<T>& state, T current_A, const Cell<T>& position) {
+  const MapPoint<T> flux = guess_at(coil, current_A, position).flux;
+  demagnetise(state.hysteresis, flux.value);
+  state.magnetising_current_A = state.static_current_A = current_A;
+  state.flux_rate_V = T(0);
+  state.time_constant_s = coil.eddy_currents.at(T(0)).slope_A_per_V * flux.row_slope;
+}
+
+/// The coil begins again with the next sample: no coil has this current.
+template <class T>
+constexpr void forget(CoilState<T>& state) {
+  state.magnetising_current_A = T(1 << 30);
+}
+
+/// Follows the coil current with the flux.
 template <class T>
 SPOOLFLOW_INLINE constexpr void follow_current(const Coil<T>& coil, CoilState<T>& state, const CoilStep<T>& step,
-                                               const Cell<T>& position, bool begins) {
-  const auto& flux_map = coil.flux_linkage.map;
-  const T last_A = begins ? step.current_A : state.magnetising_current_A;
-  const CoilGuess<T> guess{last_A, flux_map.at(locate<flux_map_currents>(flux_map.row_axis, last_A), position)};
-  if (begins) demagnetise(state, guess.flux.value);
-  solve_current(coil, state, step, guess, begins);
+                                               const Cell<T>& position, bool begins = false) {
+  if (begins) {
+    begin(coil, state, step.current_A, position);
+  } else {
+    solve_current(coil, state, step, guess_at(coil, state.magnetising_current_A, position));
+  }
 }
 
 }  // namespace spoolflow::sensor

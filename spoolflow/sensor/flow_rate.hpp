@@ -30,7 +30,7 @@ struct FlowRate {
   [[nodiscard]] constexpr FlowRatePoint<T> at(T flow_force_N, T position_m) const {
     const T share = flow_force_N / largest_force_N.at(position_m).value;
     bool inside = share >= T(0) && share <= T(1);
-    const Cell<T> position = locate<flow_map_positions>(flow_m3_per_s.row_axis, position_m, inside);
+    const Cell<T> position = locate<flow_map_positions>(flow_m3_per_s.row_axis, position_m, [&] { inside = false; });
     const Cell<T> force = locate<flow_map_forces>(flow_m3_per_s.column_axis, sqrt(limited(share, T(0), T(1))));
     return {flow_m3_per_s.at(position, force).value, squared(root_pressure_difference.at(position, force).value),
             inside};

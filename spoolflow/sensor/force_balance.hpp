@@ -74,7 +74,8 @@ constexpr FrictionBounds<T> within_swing(const FrictionBounds<T>& bounds, T half
 /// What the mass of the slips asks for in each period of dither [N].
 template <class T>
 constexpr T slips_excess_N(const ObserverParameters<T>& valve, T half_swing_N, T period_s, T velocity_m_per_s) {
-  const T elastic_m = T(2) * half_swing_N / larger(valve.friction.contact_stiffness_N_per_m, T(1));
+  const T stiffness_N_per_m = valve.friction.contact_stiffness_N_per_m;
+  const T elastic_m = T(2) * half_swing_N / (lies_below(stiffness_N_per_m, T(1)) ? T(1) : stiffness_N_per_m);
   return slip_excess_N(valve.moving_mass_kg, half_swing_N, magnitude(velocity_m_per_s) * period_s - elastic_m,
                        period_s);
 }

@@ -162,19 +162,21 @@ template <class T>
 SPOOLFLOW_INLINE constexpr void follow_displacement(const FrictionParameters<T>& friction, FrictionState<T>& state,
                                                     const Contact<T>& contact, T position_m, T time_step_s) {
   state.rest_s = smaller(state.rest_s + time_step_s, T(longest_rest_s));
-  const T averaged_s = smaller(larger(state.rest_s, T(least_rest_s)), T(presliding_smoothing_s) + time_step_s);
+  const T smoothing_s = T(presliding_smoothing_s) + time_step_s;
+  const T averaged_s = likely(smoothing_s < state.rest_s) ? smoothing_s : larger(state.rest_s, T(least_rest_s));
   state.smooth_m += time_step_s / averaged_s * (position_m - state.smooth_m);
   const T before_m = state.followed_m;
-  state.followed_m = limited(before_m, state.smooth_m - contact.deadband_m, state.smooth_m + contact.deadband_m);
-  const T moved_m = state.followed_m - before_m;
-  if (!is_zero(moved_m)) {
-    displace(friction, state, contact, moved_m);
+  const T least_m = state.smooth_m - contact.deadband_m, most_m = state.smooth_m + contact.deadband_m;
+  if (before_m < least_m || most_m < before_m) {
+    state.followed_m = before_m < least_m ? least_m : most_m;
+    displace(friction, state, contact, state.followed_m - before_m);
   } else if (!contact.creeps) {
     forget_engagement(state, time_step_s);
   }
   // A spool that moves the sensor is at that end of its backlash, and holds no more than the contact bears.
-  const T most_N = at_least_zero(contact.sticking_N - contact.half_width_N);
-  state.presliding_N = limited_size(state.presliding_N, most_N);
+  const T most_N = contact.sticking_N - contact.half_width_N;
+  if (unlikely(magnitude(state.presliding_N) > most_N))
+    state.presliding_N = limited_size(state.presliding_N, at_least_zero(most_N));
 }
 
 /// In motion: friction is that of sliding, or in a slip what the forces leave; from there the next rest begins.
@@ -220,7 +222,7 @@ SPOOLFLOW_INLINE constexpr FrictionInterval<T> step(const FrictionParameters<T>&
   const detail::Contact<T> contact{residual_N, bounds.sticking_N, holds_N, deadband_m, half_width_N, creeps};
   const T rested_s = state.rest_s;
   T breakaway_N{};
-  if (position.motion == Motion::rest) {
+  if (likely(position.motion == Motion::rest)) {
     detail::follow_displacement(friction, state, contact, position.position_m, time_step_s);
   } else {
     if (rested_s > T(0)) {
@@ -229,7 +231,7 @@ SPOOLFLOW_INLINE constexpr FrictionInterval<T> step(const FrictionParameters<T>&
     }
     detail::follow_motion(state, contact, bounds.sliding_N, position);
   }
-  if (memory.now) detail::hold(state, residual_N, memory.since_s);
+  if (memory.now) detail::hold(state, residual_N, memory.since_s());
   FrictionInterval<T> out{-bounds.sticking_N, bounds.sticking_N, breakaway_N, rested_s};
   if (creeps || slides(position.motion)) return out;
   // Friction lies on the side of the estimate to which the backlash engages.

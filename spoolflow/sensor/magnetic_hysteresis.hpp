@@ -141,7 +141,7 @@ SPOOLFLOW_INLINE constexpr void move_stops(const MagneticHysteresis<T>& hysteres
 template <class T>
 constexpr HysteresisPoint<T> hysteresis_at(const MagneticHysteresis<T>& hysteresis, const HysteresisState<T>& state,
                                            T flux) {
-  const T share = smaller(magnitude(flux) * hysteresis.per_full_flux, T(1));
+  const T share = from_zero_to(T(1), magnitude(flux) * hysteresis.per_full_flux);
   if (!(flux < state.flux)) return detail::answer_of_stops<true, 0>(hysteresis, state, flux, share);
   const HysteresisPoint<T> falling = detail::answer_of_stops<false, 0>(hysteresis, state, flux, share);
   return {-falling.value, falling.slope};

@@ -70,7 +70,7 @@ struct MeteringEdge {
   [[nodiscard]] constexpr OilLayer<T> layer_at(T temperature) const {
     static_assert(edge_temperatures == 3, "one bit tells the two cells apart");
     OilLayer<T> out{{}, true};
-    out.cell = locate<edge_temperatures>(temperature_K, temperature, out.inside);
+    out.cell = locate<edge_temperatures>(temperature_K, temperature, [&] { out.inside = false; });
     return out;
   }
 
@@ -79,26 +79,27 @@ struct MeteringEdge {
                                                            const Cell<T>& column, T pressure_difference) const {
     const VolumeCell<T> cell = volume_cell(layer, row, column, pressure_difference_Pa.per_spacing);
     VolumePoint<T> force = flow_force_N.at(cell), friction = friction_N.at(cell);
-    if (unlikely(is_beyond(pressure_difference)))
+    if (unlikely(row.index == edge_pressures - 2 && is_beyond(pressure_difference)))
       continue_beyond(force, friction, pressure_difference, highest_pressure_difference_Pa());
     return {force.value, larger(force.row_slope, T(least_force_per_pressure_N_Pa)), friction.value, friction.row_slope,
             conductance.at(cell).value};
   }
   /// The layer may be kept while the oil temperature stays. A bit that falls in its memory leads to no place outside of
-  /// the tables.
-  [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(const OilLayer<T>& layer, T pressure_difference,
-                                                           T position) const {
+  /// the tables. `outside()` is called where pressure difference or position lie outside of what was measured.
+  template <class Outside>
+  [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(const Cell<T>& layer, T pressure_difference, T position,
+                                                           const Outside& outside) const {
+    const Cell<T> row = locate<edge_pressures>(pressure_difference_Pa, pressure_difference, outside);
+    const Cell<T> column = locate<edge_positions>(position_m, position, outside);
+    return at(Cell<T>{layer.index & (edge_temperatures - 2), layer.share}, row, column, pressure_difference);
+  }
+  [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(T temperature, T pressure_difference, T position) const {
+    const OilLayer<T> layer = layer_at(temperature);
     bool inside = true;
-    const Cell<T> row = locate<edge_pressures>(pressure_difference_Pa, pressure_difference, inside);
-    const Cell<T> column = locate<edge_positions>(position_m, position, inside);
-    const Cell<T> oil{layer.cell.index & (edge_temperatures - 2), layer.cell.share};
-    EdgePoint<T> out = at(oil, row, column, pressure_difference);
+    EdgePoint<T> out = at(layer.cell, pressure_difference, position, [&] { inside = false; });
     out.inside = inside;
     out.temperature_inside = layer.inside;
     return out;
-  }
-  [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(T temperature, T pressure_difference, T position) const {
-    return at(layer_at(temperature), pressure_difference, position);
   }
 };
 

@@ -9,50 +9,27 @@
 #include "spoolflow/sensor/observer_parameters.hpp"
 #include "spoolflow/sensor/other_direction.hpp"
 #include "spoolflow/sensor/pressure_update.hpp"
+#include "spoolflow/sensor/schedule.hpp"
 
 namespace spoolflow::sensor {
 
-/// When each part of the step runs that the answer can do without for some samples, so that no sample does everything.
-/// Beside these every sample runs magnetic force, axial forces, friction, pressure difference and flow rate. A block of
-/// positions (position_state.hpp) is 2 ms long; where it is one sample, and until the first closes, all run with every
-/// sample.
-///
-/// | part                           | due with                                               | since it last ran |
-/// |--------------------------------|--------------------------------------------------------|-------------------|
-/// | friction_memory                | the sample that closes a block                         | a block           |
-/// | coil_diagnosis                 | the first after four blocks' time that closes none     | four blocks       |
-/// | force_uncertainty, slip_excess | odd samples that close none, and a change of sides     | not needed        |
-/// | process_noise, band            | even samples that close none                           | not needed        |
-/// | friction_ratio                 | the even ones of the samples that follow a block       | two blocks        |
-/// | oil_temperature                | the odd ones of the samples that follow a block        | two blocks        |
-template <class T>
-struct Schedule {
-  Due<T> friction_memory;
-  Due<T> coil_diagnosis;
-  bool force_uncertainty;
-  bool slip_excess;
-  bool process_noise;
-  bool band;
-  Due<T> friction_ratio;
-  Due<T> oil_temperature;
-};
-
 namespace detail {
 
+/// Where the oil temperature that is followed lies, and what must be said of it.
 template <class T>
-SPOOLFLOW_INLINE constexpr Schedule<T> schedule_of(const PositionBlock<T>& block) {
-  const bool busy = block.closed && !block.lone;
-  const bool odd = block.lone || (!busy && !block.even);
-  const bool even = block.lone || (!busy && block.even);
-  const T two_blocks_s = block.length_s * (block.lone ? T(1) : T(2));
-  Schedule<T> out;
-  out.friction_memory = {block.closed, block.length_s};
-  out.coil_diagnosis = {!busy, T(4) * block.length_s};
-  out.force_uncertainty = out.slip_excess = odd;
-  out.process_noise = out.band = even;
-  out.friction_ratio = {even && block.follows, two_blocks_s};
-  out.oil_temperature = {odd && block.follows, two_blocks_s};
-  return out;
+SPOOLFLOW_INLINE constexpr void follow_layer(const ObserverParameters<T>& valve, ObserverState<T>& state) {
+  const OilLayer<T> layer = valve.edge.layer_at(state.oil.temperature_K);
+  state.oil_layer = layer.cell;
+  state.oil_status =
+      when(!layer.inside, Status::outside_temperature) | when(!is_zero(state.oil.fault_s), Status::temperature_fault);
+}
+
+/// The oil temperature, where it is due, and what it does to the position's zero.
+template <class T>
+SPOOLFLOW_INLINE constexpr void follow_oil(const PositionSensor<T>& sensor, ObserverState<T>& state, T measured_K,
+                                           const Due<T>& due) {
+  follow_temperature(state.oil, measured_K, due);
+  if (due.now) state.drift_m = drift_m(sensor, state.oil.temperature_K);
 }
 
 /// To be called before the first sample goes through the stages, and where time has leapt.
@@ -62,8 +39,11 @@ constexpr void begin(const ObserverParameters<T>& valve, ObserverState<T>& state
   sensor::begin(state.oil, sample.oil_temperature_K, valve.edge.temperature_K.at(1));
   state.held_currents = 0;
   state.unmoved_s = T(0);
-  const T position_m = drift_free_m(valve.position_sensor, sample.position_m, state.oil.temperature_K);
+  follow_layer(valve, state);
+  state.drift_m = drift_m(valve.position_sensor, state.oil.temperature_K);
+  const T position_m = sample.position_m - state.drift_m;
   sensor::begin(state.position, position_m);
+  forget(state.actuator.coil);
   sensor::begin(state.dither, sample.current_A);  // without dither no swing is kept either
   sensor::begin(valve.friction, state.friction, position_m);
   sensor::begin(valve.pressure, state.pressure, valve.highest_pressure_difference_Pa(), valve.friction.operation_ratio,
@@ -93,7 +73,7 @@ SPOOLFLOW_NOINLINE constexpr T possible_change_A(const ObserverParameters<T>& va
 /// The sample, or that with the last credible current where its own leapt.
 template <class T>
 SPOOLFLOW_INLINE constexpr const Sample<T>& credible(const ObserverParameters<T>& valve, ObserverState<T>& state,
-                                                     const Sample<T>& measured) {
+                                                     const Sample<T>& measured, Status& faults) {
   const T last_A = state.position.coil.current_A;
   const bool holds = is_held(
       valve.current_limits, {last_A, measured.current_A}, measured.time_step_s, state.held_currents, [&](T fastest_A) {
@@ -102,6 +82,7 @@ SPOOLFLOW_INLINE constexpr const Sample<T>& credible(const ObserverParameters<T>
       });
   state.held_currents = held_in_a_row(state.held_currents, holds);
   if (likely(!holds)) return measured;
+  faults |= Status::current_fault;
   state.held = with_current(measured, last_A);
   return state.held;
 }
@@ -110,29 +91,23 @@ SPOOLFLOW_INLINE constexpr const Sample<T>& credible(const ObserverParameters<T>
 template <class T>
 SPOOLFLOW_INLINE constexpr ActuatorEstimate<T> net_actuator(const ObserverParameters<T>& valve, ActuatorState<T>& state,
                                                             const Sample<T>& sample, T position_m, T opposing_N,
-                                                            bool begins, bool judged) {
+                                                            bool judged, Status& status) {
   ActuatorEstimate<T> out =
-      step(valve.actuator, state, Sample<T>{sample.time_step_s, sample.current_A, {}, position_m, {}}, begins, judged);
+      follow_force(valve.actuator, state, Sample<T>{sample.time_step_s, sample.current_A, {}, position_m, {}}, judged,
+                   [&] { status |= Status::outside_force_map; });
   out.magnetic_force_N -= opposing_N;
   return out;
 }
 
-/// What the sample and its answer must be taken with.
+/// What the sample and its answer must be taken with, beside what oil and tables have said.
 template <class T>
-SPOOLFLOW_INLINE constexpr auto status(const ObserverParameters<T>& valve, const ObserverState<T>& state,
-                                       const Sample<T>& sample, const ForceBalance<T>& balance) {
-  Status out{};
-  mark(out, balance.closed, Status::closed);
-  mark(out, !balance.sliding, Status::spool_at_rest);
-  mark(out, balance.dithered, Status::dithered);
-  mark(out, !balance.actuator.inside_map, Status::outside_force_map);
-  const bool capped = is_capped(state.pressure, valve.highest_pressure_difference_Pa());
-  mark(out, (!balance.edge.inside || capped) && !balance.closed, Status::outside_flow_force_map);
-  mark(out, !balance.edge.temperature_inside, Status::outside_temperature);
-  mark(out, sample.current_A > valve.largest_current_A, Status::current_saturated);
-  mark(out, state.actuator.coil_resistance.implausible, Status::coil_fault);
-  mark(out, !is_zero(state.oil.fault_s), Status::temperature_fault);
-  return out;
+SPOOLFLOW_INLINE constexpr void mark_answer(const ObserverParameters<T>& valve, const ObserverState<T>& state,
+                                            const Sample<T>& sample, const ForceBalance<T>& balance, Status& status) {
+  if (unlikely(is_capped(state.pressure, valve.highest_pressure_difference_Pa())) && !balance.closed)
+    status |= Status::outside_flow_force_map;
+  mark(status, !balance.sliding, Status::spool_at_rest);
+  mark(status, sample.current_A > valve.largest_current_A, Status::current_saturated);
+  mark(status, state.actuator.coil_resistance.implausible, Status::coil_fault);
 }
 
 /// What is left open of the pressure difference, computed where it is due.
@@ -141,6 +116,7 @@ SPOOLFLOW_INLINE constexpr void follow_half_widths(const ObserverParameters<T>& 
                                                    const ForceBalance<T>& balance, const PositionPoint<T>& position,
                                                    T current_A) {
   PressureState<T>& pressure = state.pressure;
+  follow_agreement(pressure);
   if (!is_bench(valve.environment))
     state.force_errors.environment_N =
         environment_N(valve,
@@ -178,10 +154,11 @@ SPOOLFLOW_INLINE constexpr void answer(const ObserverParameters<T>& valve, const
 template <class T>
 SPOOLFLOW_NOINLINE constexpr void answer_in_doubt(ObserverState<T>& state, const ObserverParameters<T>& valve,
                                                   const Sample<T>& sample, const DoubtfulPlace<T>& position,
-                                                  T opposing_N, bool begins) {
+                                                  T opposing_N, Status faults) {
+  Status status = state.oil_status | faults;
   const ActuatorEstimate<T> actuator =
-      net_actuator(valve, state.actuator, sample, position.position_m, opposing_N, begins, false);
-  follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, {true, T(0)});
+      net_actuator(valve, state.actuator, sample, position.position_m, opposing_N, false, status);
+  follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, {true, T(0), T(0)});
   const T highest_Pa = valve.highest_pressure_difference_Pa();
   drift_unobserved(valve.pressure, state.pressure, sample.time_step_s, highest_Pa);
   const EdgePoint<T> edge =
@@ -198,14 +175,12 @@ SPOOLFLOW_NOINLINE constexpr void answer_in_doubt(ObserverState<T>& state, const
   out.spring_force_N = valve.spring.at(position.position_m).value;
   out.flow_force_N = edge.flow_force_N;
   out.friction_force_N = T(0);
-  out.status = when(position.position_m < valve.closed_below_m, Status::closed);
-  mark(out.status, !actuator.inside_map, Status::outside_force_map);
-  mark(out.status, !edge.temperature_inside, Status::outside_temperature);
-  mark(out.status, sample.current_A > valve.largest_current_A, Status::current_saturated);
-  mark(out.status, position.stopped, Status::open_stop);
-  mark(out.status, position.fault, Status::position_fault);
-  mark(out.status, coil.implausible || coil.unanswered, Status::coil_fault);
-  mark(out.status, state.oil.fault_s > T(0), Status::temperature_fault);
+  mark(status, position.position_m < valve.closed_below_m, Status::closed);
+  mark(status, sample.current_A > valve.largest_current_A, Status::current_saturated);
+  mark(status, position.stopped, Status::open_stop);
+  mark(status, position.fault, Status::position_fault);
+  mark(status, coil.implausible || coil.unanswered, Status::coil_fault);
+  out.status = status;
 }
 
 /// A position that says that the spool rests and covers the edge, against forces that move any spool, is wrong: the
@@ -228,19 +203,20 @@ SPOOLFLOW_NOINLINE constexpr void judge_closed(const ObserverParameters<T>& valv
 template <class T>
 SPOOLFLOW_INLINE constexpr void update_pressure(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                                 const ForceBalance<T>& balance, const PositionPoint<T>& position,
-                                                const Schedule<T>& schedule, T time_step_s) {
+                                                const Schedule<T>& schedule, T time_step_s, Status& status) {
   PressureState<T>& pressure = state.pressure;
   const T prior_Pa = pressure.pressure_difference_Pa;
   const T to_friction_N =
       update(valve, pressure, balance, {schedule.friction_ratio, schedule.process_noise, time_step_s}, [&] {
+        status = without(status, Status::outside_flow_force_map) | Status::closed;
         judge_closed(valve, state, closed_forces(balance, state.force_errors.environment_N, position), time_step_s);
       });
   if (!is_zero(to_friction_N)) correct_friction(state.friction, balance, to_friction_N);
   if (balance.dithered) {
+    status |= Status::dithered;
     state.swing.flow_force_N +=
         balance.edge.flow_force_per_pressure_N_Pa * (pressure.pressure_difference_Pa - prior_Pa);
   }
-  if (schedule.band) follow_agreement(pressure);
 }
 
 /// The chain of the paper's Fig 3 where the place of the spool is known and the current answers the voltage.
@@ -248,27 +224,30 @@ template <class T>
 SPOOLFLOW_INLINE constexpr void observe_forces(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                                const Sample<T>& sample, const PositionPoint<T>& position,
                                                const Dither<T>& dither, const Schedule<T>& schedule, T opposing_N,
-                                               bool begins) {
+                                               Status faults = {}) {
+  Status status = state.oil_status | faults;
   // Magnetic force.
   const ActuatorEstimate<T> actuator =
-      net_actuator(valve, state.actuator, sample, position.position_m, opposing_N, begins, schedule.force_uncertainty);
+      net_actuator(valve, state.actuator, sample, position.position_m, opposing_N, schedule.force_uncertainty, status);
 
   // Axial force and friction.
   const T spring_N = valve.spring.at(position.position_m).value;
-  const EdgePoint<T> edge = valve.edge.at(state.oil_layer, state.pressure.pressure_difference_Pa, position.position_m);
+  const EdgePoint<T> edge = valve.edge.at(state.oil_layer, state.pressure.pressure_difference_Pa, position.position_m,
+                                          [&] { status |= Status::outside_flow_force_map; });
   const ForceBalance<T> balance = balance_forces(
       valve, {state.friction, state.swing}, {actuator, spring_N, edge, state.pressure.friction_ratio}, position, dither,
       {schedule.slip_excess, schedule.friction_memory, state.dither.period_s, sample.time_step_s});
   state.force_errors.noise_N = balance.noise_N;
 
   // Flow force: what friction cannot be moves the pressure difference.
-  update_pressure(valve, state, balance, position, schedule, sample.time_step_s);
+  update_pressure(valve, state, balance, position, schedule, sample.time_step_s, status);
   follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, schedule.coil_diagnosis);
 
   // Flow rate and its band.
   if (schedule.band) follow_half_widths(valve, state, balance, position, sample.current_A);
   answer(valve, state.pressure, balance, state.last);
-  state.last.status = status(valve, state, sample, balance);
+  mark_answer(valve, state, sample, balance, status);
+  state.last.status = status;
 }
 
 /// From where the spool is and what it does to the answer, which stays in the state. `opposing_N` is what another
@@ -277,15 +256,16 @@ template <class T>
 SPOOLFLOW_INLINE constexpr void observe(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                         const Sample<T>& sample, const PositionPoint<T>& position,
                                         const Dither<T>& dither, const Schedule<T>& schedule, T opposing_N,
-                                        bool begins) {
-  if (schedule.oil_temperature.now || begins) state.oil_layer = valve.edge.layer_at(state.oil.temperature_K);
-  const bool stopped = position.position_m > valve.stopped_above_m;
-  if (unlikely(position.fault || state.actuator.coil_resistance.unanswered || stopped)) {
-    answer_in_doubt(state, valve, sample, {position.position_m, position.elsewhere_m, position.fault, stopped},
-                    opposing_N, begins);
+                                        Status faults = {}) {
+  if (schedule.oil_temperature.now) follow_layer(valve, state);
+  const auto stopped = [&] { return lies_below(valve.stopped_above_m, position.position_m); };
+  if (unlikely(is_doubted(state.position) || state.actuator.coil_resistance.unanswered || stopped())) {
+    answer_in_doubt(state, valve, sample,
+                    {position.position_m, elsewhere_m(state.position, position), is_doubted(state.position), stopped()},
+                    opposing_N, faults);
     return;
   }
-  observe_forces(valve, state, sample, position, dither, schedule, opposing_N, begins);
+  observe_forces(valve, state, sample, position, dither, schedule, opposing_N, faults);
 }
 
 /// See sensor::hold. A call of its own, with its arguments in an order that costs the step nothing.
@@ -321,28 +301,27 @@ constexpr void hold(const ObserverParameters<T>& valve, ObserverState<T>& state,
 template <class T>
 constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                   const Sample<T>& measured) {
-  bool leapt = false, irregular = false;
+  bool begins = !state.started;
+  Status faults{};
   if (unlikely(!ordinary(measured))) {
-    leapt = time_leapt(measured.time_step_s);
-    irregular = is_irregular(measured.time_step_s) && (state.started || !is_zero(measured.time_step_s));
     if (unusable(measured) != Status::none) {
       detail::hold(state, measured, valve);
       return state.last;
     }
+    mark(faults, is_irregular(measured.time_step_s) && !(begins && is_zero(measured.time_step_s)), Status::time_fault);
+    begins = begins || time_leapt(measured.time_step_s);
   }
-  const bool begins = !state.started || leapt;
-  const Sample<T>& sample = begins ? measured : detail::credible(valve, state, measured);
+  const Sample<T>& sample = begins ? measured : detail::credible(valve, state, measured, faults);
   if (begins) detail::begin(valve, state, sample);
   const Dither<T> dither = follow_dither(state.dither, sample.current_A, valve.largest_current_A, sample.time_step_s);
   const PositionPoint<T> position =
-      track(valve.position_sensor, state.position, sample, detail::quiet_coil(valve), state.oil.temperature_K, dither,
+      track(valve.position_sensor, state.position, sample, detail::quiet_coil(valve), state.drift_m, dither,
             state.swing.frees, [&] { return elastic_m(valve.friction, state.friction); });
   const Schedule<T> schedule = detail::schedule_of(position.block);
-  follow_temperature(state.oil, sample.oil_temperature_K, schedule.oil_temperature);
-  detail::observe(valve, state, sample, position, dither, schedule, T(0), begins);
-  admit_other_direction(valve, state.oil.temperature_K, position.position_m, state.last);
-  if (irregular) state.last.status |= Status::time_fault;
-  if (unlikely(state.held_currents > 0)) state.last.status |= Status::current_fault;
+  detail::follow_oil(valve.position_sensor, state, sample.oil_temperature_K, schedule.oil_temperature);
+  detail::observe(valve, state, sample, position, dither, schedule, T(0), faults);
+  if (has(state.last.status, Status::closed))
+    admit_other_direction(valve, state.oil.temperature_K, position.position_m, state.last);
   return state.last;
 }
 

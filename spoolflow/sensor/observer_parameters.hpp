@@ -100,7 +100,9 @@ struct ObserverState {
   DitherState<T> dither;
   FrictionSwingState<T> swing;
   OilState<T> oil;
-  OilLayer<T> oil_layer;  ///< of its temperature in the edge's tables
+  Cell<T> oil_layer{};  ///< of its temperature in the edge's tables
+  T drift_m{};          ///< of the position's zero at that temperature
+  Status oil_status{};  ///< what must be said of it with each answer
   ForceErrors<T> force_errors;
   T unmoved_s{};        ///< for how long the forces have contradicted a closed position (closed_evidence.hpp)
   int held_currents{};  ///< samples in a row whose current was implausible and replaced

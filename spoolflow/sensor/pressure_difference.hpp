@@ -77,7 +77,7 @@ static_assert(std::is_trivially_copyable_v<PressureState<float>>);
 /// not known.
 template <class T>
 constexpr bool is_capped(const PressureState<T>& state, T highest_Pa) {
-  return !(state.pressure_difference_Pa < highest_Pa);
+  return !lies_below(state.pressure_difference_Pa, highest_Pa);
 }
 
 /// What the force balance leaves unexplained, as a measurement of the pressure difference.
@@ -138,8 +138,8 @@ constexpr void drift_unobserved(const PressureParameters<T>& pressure, PressureS
   const T variance_Pa2 = squared(pressure.resting_drift_Pa_per_sqrt_s) * time_step_s;
   state.drift_variance_Pa2 += variance_Pa2;
   state.unobserved_variance_Pa2 += variance_Pa2;
-  state.variance_Pa2 +=
-      state.variance_Pa2 < squared(T(most_deviation_share) * highest_Pa) ? state.process_noise * variance_Pa2 : T(0);
+  if (state.variance_Pa2 < squared(T(most_deviation_share) * highest_Pa))
+    state.variance_Pa2 += state.process_noise * variance_Pa2;
 }
 
 /// One standard deviation of what the pressure difference may have done unobserved [Pa]. In proportion to the process
@@ -193,7 +193,7 @@ template <class T>
 constexpr void correct_pressure(const PressureParameters<T>& pressure, PressureState<T>& state,
                                 const KalmanUpdate<T>& update, T highest_Pa) {
   const T corrected_Pa = state.pressure_difference_Pa + update.gain_Pa_per_N * update.innovation_N;
-  state.pressure_difference_Pa = smaller(at_least_zero(corrected_Pa), highest_Pa);
+  state.pressure_difference_Pa = from_zero_to(highest_Pa, corrected_Pa);
   const T breakaway_Pa = update.remaining_share * state.breakaway_Pa;
   state.breakaway_Pa = magnitude(breakaway_Pa) > T(vanishing_breakaway_Pa) ? breakaway_Pa : T(0);
   state.constrained_correction_Pa = T(0);

@@ -10,8 +10,10 @@ namespace spoolflow::sensor {
 /// be said of it.
 template <class T>
 SPOOLFLOW_INLINE constexpr T beyond_bounds_N(const ForceBalance<T>& balance) {
+  const T beyond_N = balance.residual_force_N - balance.friction_N;
+  if (likely(is_zero(beyond_N))) return T(0);
   const bool rests = balance.settled && !balance.closed && !balance.sliding && !balance.slips;
-  return rests ? balance.residual_force_N - balance.friction_N : T(0);
+  return rests ? beyond_N : T(0);
 }
 
 /// Moves the pressure difference by its share in what brings the force back within the bounds, at the pace of

@@ -32,9 +32,8 @@ inline constexpr double most_friction_ratio = 2.5;
 /// Prediction over one sample.
 template <class T>
 constexpr void drift(const PressureParameters<T>& pressure, PressureState<T>& state, T time_step_s, T highest_Pa) {
-  state.variance_Pa2 += state.variance_Pa2 < squared(T(most_deviation_share) * highest_Pa)
-                            ? squared(pressure.sliding_drift_Pa_per_sqrt_s) * time_step_s
-                            : T(0);
+  if (state.variance_Pa2 < squared(T(most_deviation_share) * highest_Pa))
+    state.variance_Pa2 += squared(pressure.sliding_drift_Pa_per_sqrt_s) * time_step_s;
 }
 
 /// The friction ratio goes back towards the calibrated one: it was found where the spool was, and at its speed.
@@ -58,10 +57,10 @@ SPOOLFLOW_INLINE constexpr void follow_agreement(PressureState<T>& state) {
 
 /// The innovation of one sample.
 template <class T>
-SPOOLFLOW_INLINE constexpr ForceInnovation<T> sliding_innovation(const ForceBalance<T>& balance,
-                                                                 T friction_slope_N_per_Pa) {
+SPOOLFLOW_INLINE constexpr ForceInnovation<T> sliding_innovation(const ForceBalance<T>& balance, T friction_ratio) {
   return {balance.residual_force_N - balance.friction_N,
-          whole_slope_N_per_Pa(balance.edge.flow_force_per_pressure_N_Pa, balance.direction * friction_slope_N_per_Pa),
+          whole_slope_N_per_Pa(balance.edge.flow_force_per_pressure_N_Pa,
+                               balance.direction * (friction_ratio * balance.edge.friction_per_pressure_N_Pa)),
           balance.direction * (balance.edge.friction_N + balance.actuator.friction_half_width_N), balance.noise_N};
 }
 

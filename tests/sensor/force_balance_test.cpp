@@ -32,7 +32,7 @@ struct Balance {
 };
 
 PositionPoint<double> moving(Motion motion, double direction) {
-  return {opened_m, motion, false, direction * 1e-6};
+  return {opened_m, motion, direction * 1e-6};
 }
 PositionPoint<double> resting() {
   return moving(Motion::rest, 1);

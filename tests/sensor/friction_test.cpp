@@ -29,7 +29,7 @@ class Friction : public testing::TestWithParam<double> {
   FrictionInterval<double> sample(Motion motion, double position_m, double residual_N, double direction = 1) {
     const FrictionBounds<double> bounds = friction_bounds(contact, state, spool_N, armature_N);
     dragged_m_ = std::clamp(dragged_m_, position_m - fine_lvdt.backlash_m, position_m + fine_lvdt.backlash_m);
-    PositionPoint<double> point{dragged_m_ + noise_times * noise_(generator_), motion, false, direction * 1e-6};
+    PositionPoint<double> point{dragged_m_ + noise_times * noise_(generator_), motion, direction * 1e-6};
     point.noise_times = learnt_times;
     const Due<double> memory{true, GetParam()};  // a block of positions is one sample
     return step(contact, state, bounds, fine_lvdt, point, residual_N, creeps, memory, GetParam());

@@ -21,7 +21,11 @@ constexpr PositionSensor<double> signal_of_lvdt{.noise_m = 0.4e-6,
 class PositionTrack : public testing::TestWithParam<double> {
  protected:
   using Course = std::function<double(double time_s)>;
-  using Each = std::function<void(double time_s, const PositionPoint<double>& point)>;
+  struct Seen : PositionPoint<double> {
+    bool fault;
+    double elsewhere_m;
+  };
+  using Each = std::function<void(double time_s, const Seen& point)>;
 
   /// The track over the signal of a course; `fault_m` adds to the signal. The coil's current shows no motion where
   /// it is steady, and the voltage with it where there is one.
@@ -38,8 +42,9 @@ class PositionTrack : public testing::TestWithParam<double> {
       sample.position_m = course(time_s) + noise_m(generator) + (fault_m ? fault_m(time_s) : 0);
       sample.voltage_V = voltage_V ? voltage_V(time_s) : std::nan("");
       sample.current_A = current_A ? current_A(time_s) : 0;
-      each(time_s, track(signal_of_lvdt, state, sample, {.current_A = 0.01, .voltage_V = 0.2}, 313.0, {}, false,
-                         [&] { return elastic_m; }));
+      const PositionPoint<double> point = track(signal_of_lvdt, state, sample, {.current_A = 0.01, .voltage_V = 0.2},
+                                                0.0, {}, false, [&] { return elastic_m; });
+      each(time_s, {point, is_doubted(state), sensor::elsewhere_m(state, point)});
     }
   }
   [[nodiscard]] static double step_s() { return GetParam(); }
@@ -51,7 +56,7 @@ TEST_P(PositionTrack, SeparatesRestFromNoise) {
   int moving = 0, samples = 0;
   follow(
       5, [](double) { return 1e-3; },
-      [&](double, const PositionPoint<double>& point) {
+      [&](double, const Seen& point) {
         moving += point.motion == Motion::rest ? 0 : 1;
         ++samples;
       });
@@ -65,7 +70,7 @@ TEST_P(PositionTrack, LearnsThatItsSignalHasMoreNoiseThanTheBenchHad) {
   int moving = 0, samples = 0;
   follow(
       learnt_s + 5, [](double) { return 1e-3; },
-      [&](double time_s, const PositionPoint<double>& point) {
+      [&](double time_s, const Seen& point) {
         if (time_s < learnt_s) return;
         moving += point.motion == Motion::rest ? 0 : 1;
         ++samples;
@@ -82,7 +87,7 @@ TEST_P(PositionTrack, FindsWhichWayTheSpoolSlidesWithinAFewBlocks) {
     const double blocks = speed_m_per_s < 0.5e-3 ? 32 : 9;  // the long windows, or the short
     const double found_after_s = blocks * std::max(step_s(), block_length_s);
     int wrong = 0, opening = 0, closing = 0, samples = 0;
-    follow(2 * turn_s, course, [&](double time_s, const PositionPoint<double>& point) {
+    follow(2 * turn_s, course, [&](double time_s, const Seen& point) {
       const double since_s = time_s < turn_s ? time_s : time_s - turn_s;
       if (since_s < found_after_s) return;
       ++samples;
@@ -101,7 +106,7 @@ TEST_P(PositionTrack, TakesNoCreepThatContactsGiveElasticallyForSlidingHoweverFi
     int sliding = 0, samples = 0;
     follow(
         100 * window_s, [&](double time_s) { return speed_m_per_s * time_s; },
-        [&](double time_s, const PositionPoint<double>& point) {
+        [&](double time_s, const Seen& point) {
           if (time_s < 5 * window_s) return;
           sliding += slides(point.motion) ? 1 : 0;
           ++samples;
@@ -119,7 +124,7 @@ TEST_P(PositionTrack, FindsASlipWithItsDirectionAndLetsItSettle) {
   double direction = 0;
   follow(
       1.0, [](double time_s) { return 1e-3 - (time_s < 0.5 ? 0 : std::min((time_s - 0.5) / 5e-3, 1.0) * 50e-6); },
-      [&](double time_s, const PositionPoint<double>& point) {
+      [&](double time_s, const Seen& point) {
         if (point.motion == Motion::transient) {
           ++transients;
           direction = point.travel_m;
@@ -136,7 +141,7 @@ TEST_P(PositionTrack, TakesAFaultOutOfTheSignalUntilItIsOver) {
   if (step_s() > 2e-3) GTEST_SKIP() << "90 m/s2 allow 2.3 mm in 5 ms: no jump is beyond it";
   follow(
       1, [](double time_s) { return 0.5e-3 + 1e-3 * time_s; },
-      [&](double time_s, const PositionPoint<double>& point) {
+      [&](double time_s, const Seen& point) {
         EXPECT_NEAR(point.position_m, 0.5e-3 + 1e-3 * time_s, 25e-6) << time_s;
         EXPECT_EQ(point.fault, time_s >= 0.4 && time_s < 0.45) << time_s;
       },
@@ -147,7 +152,7 @@ TEST_P(PositionTrack, TakesAFaultOutThatTheCoilKnowsNothingOfHoweverLongTheStep)
   const double until_s = 0.45;
   follow(
       1, [](double time_s) { return 0.5e-3 + 0.1e-3 * time_s; },
-      [&](double time_s, const PositionPoint<double>& point) {
+      [&](double time_s, const Seen& point) {
         EXPECT_NEAR(point.position_m, 0.5e-3 + 0.1e-3 * time_s, 5e-6) << time_s;
         EXPECT_EQ(point.fault, time_s >= 0.4 && time_s < until_s) << time_s;
       },
@@ -158,7 +163,7 @@ TEST_P(PositionTrack, AcceptsASlipThatTheVoltageShows) {
   if (step_s() < 2e-3) GTEST_SKIP() << "no spool slips by 0.15 mm within one sample";
   follow(
       1, [](double time_s) { return time_s < 0.4 ? 1e-3 : 1.15e-3; },
-      [&](double time_s, const PositionPoint<double>& point) { EXPECT_FALSE(point.fault) << time_s; }, nullptr,
+      [&](double time_s, const Seen& point) { EXPECT_FALSE(point.fault) << time_s; }, nullptr,
       [](double time_s) { return time_s < 0.4 ? 5 : 5.5; });
 }
 
@@ -168,11 +173,11 @@ TEST_P(PositionTrack, AcceptsASpoolThatRingsWithItsCurrentAndNoneThatRingsByItse
   const auto rings_m = [&](double time_s) {
     return 1e-3 + (time_s < 0.4 ? 0 : 0.2e-3 * std::sin(per_s * time_s));
   };  // 316 m/s2
-  const auto none = [](double /*time_s*/, const PositionPoint<double>& point) { EXPECT_FALSE(point.fault); };
+  const auto none = [](double /*time_s*/, const Seen& point) { EXPECT_FALSE(point.fault); };
   follow(0.5, rings_m, none, nullptr, nullptr,
          [&](double time_s) { return time_s < 0.4 ? 1 : 1 - 0.3 * std::sin(per_s * time_s); });
   bool doubted = false;
-  follow(0.5, rings_m, [&](double /*time_s*/, const PositionPoint<double>& point) { doubted |= point.fault; });
+  follow(0.5, rings_m, [&](double /*time_s*/, const Seen& point) { doubted |= point.fault; });
   EXPECT_TRUE(doubted);
 }
 
@@ -180,7 +185,7 @@ TEST_P(PositionTrack, BelievesASpoolThatStopsInNoTime) {
   const auto speeds_up_m = [](double for_s) { return 0.5 * 80 * for_s * for_s; };  // to 0.4 m/s
   follow(
       1, [&](double time_s) { return 0.2e-3 + speeds_up_m(std::clamp(time_s - 0.4, 0.0, 5e-3)); },
-      [&](double time_s, const PositionPoint<double>& point) { EXPECT_FALSE(point.fault) << time_s; }, nullptr,
+      [&](double time_s, const Seen& point) { EXPECT_FALSE(point.fault) << time_s; }, nullptr,
       [](double time_s) { return 5 + 1000 * time_s; });
 }
 
@@ -188,7 +193,7 @@ TEST_P(PositionTrack, BelievesAJumpThatLastsAndDoubtsItForAWhile) {
   if (step_s() > 2e-3) GTEST_SKIP() << "90 m/s2 allow 2.3 mm in 5 ms: no jump is beyond it";
   follow(
       4, [](double) { return 1e-3; },
-      [&](double time_s, const PositionPoint<double>& point) {
+      [&](double time_s, const Seen& point) {
         if (time_s < 0.4 || time_s > 0.4 + longest_position_doubt_s + 3 * step_s()) {
           EXPECT_FALSE(point.fault) << time_s;
         }
@@ -206,7 +211,7 @@ TEST_P(PositionTrack, BelievesTheWayBackFromAJumpThatItBelieved) {
   if (step_s() > 2e-3) GTEST_SKIP() << "90 m/s2 allow 2.3 mm in 5 ms: no jump is beyond it";
   follow(
       2, [](double) { return 1e-3; },
-      [&](double time_s, const PositionPoint<double>& point) {
+      [&](double time_s, const Seen& point) {
         if (time_s > 1.2 + step_s()) {
           EXPECT_NEAR(point.position_m, 1e-3, 6e-6) << time_s;
           EXPECT_FALSE(point.fault) << time_s;

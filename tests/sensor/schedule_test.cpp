@@ -13,7 +13,7 @@ void scheduled(double step_s, double duration_s, const Each& each) {
   PositionState<double> state{};
   begin(state, 1e-3);
   for (int k = 0; k * step_s < duration_s; ++k) {
-    const PositionPoint<double> point = track(lvdt, state, Sample<double>{step_s, 1, 10, 1e-3, 313}, {}, 313.0,
+    const PositionPoint<double> point = track(lvdt, state, Sample<double>{step_s, 1, 10, 1e-3, 313}, {}, 0.0,
                                               Dither<double>{}, false, [] { return 0.0; });
     each(detail::schedule_of(point.block));
   }
@@ -28,9 +28,9 @@ TEST_P(ScheduleAt, AccountsForAllOfTheTimeInWhatRunsSeldom) {
   double memory_s = 0, ratio_s = 0, oil_s = 0;
   int uncertainty = 0, band = 0;
   scheduled(GetParam(), duration_s, [&](const Schedule<double>& now) {
-    memory_s += now.friction_memory.now ? now.friction_memory.since_s : 0;
-    ratio_s += now.friction_ratio.now ? now.friction_ratio.since_s : 0;
-    oil_s += now.oil_temperature.now ? now.oil_temperature.since_s : 0;
+    memory_s += now.friction_memory.now ? now.friction_memory.since_s() : 0;
+    ratio_s += now.friction_ratio.now ? now.friction_ratio.since_s() : 0;
+    oil_s += now.oil_temperature.now ? now.oil_temperature.since_s() : 0;
     uncertainty += now.force_uncertainty ? 1 : 0;
     band += now.band ? 1 : 0;
   });

@@ -101,7 +101,8 @@ TrackedRun track_run(const recording::Recording& recording, double stroke_m, boo
       while (!out.passing.empty() && out.passing.back().sample > passage.went_on()) out.passing.pop_back();
     }
     const double end_m = end_stroke_share * stroke_m;
-    if (point.fault || dither.present || point.position_m < end_m || point.position_m > stroke_m - end_m) continue;
+    if (is_doubted(state) || dither.present || point.position_m < end_m || point.position_m > stroke_m - end_m)
+      continue;
     if (!(evenly || passage.worn()) || out.coil.time_s[k] < counted_s + counted_every_s) continue;
     const double dp_Pa = pressure_Pa.empty() ? 0.0 : pressure_Pa[k];
     if (std::isnan(dp_Pa)) continue;

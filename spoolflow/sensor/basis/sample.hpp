@@ -49,7 +49,7 @@ constexpr bool time_leapt(T time_step_s) {
 /// What nearly always holds: nothing is missing, and time has advanced by an ordinary step.
 template <class T>
 constexpr bool ordinary(const Sample<T>& sample) {
-  return is_number(sample.current_A) && is_number(sample.position_m) &&
+  return is_number(magnitude(sample.current_A) + magnitude(sample.position_m)) &&
          strictly_within(sample.time_step_s, T(longest_regular_step_s));
 }
 
@@ -76,10 +76,16 @@ struct PositionSensor {
   T hardest_acceleration_m_per_s2{};  ///< no spool moves harder: a jump beyond it is a fault of the signal
 };
 
+/// What the oil temperature [K] does to the signal's zero [m].
+template <class T>
+constexpr T drift_m(const PositionSensor<T>& sensor, T oil_temperature_K) {
+  return sensor.drift_m_per_K * (oil_temperature_K - sensor.drift_free_K);
+}
+
 /// The signal [m] without what the oil temperature [K] does to its zero.
 template <class T>
 constexpr T drift_free_m(const PositionSensor<T>& sensor, T position_m, T oil_temperature_K) {
-  return position_m - sensor.drift_m_per_K * (oil_temperature_K - sensor.drift_free_K);
+  return position_m - drift_m(sensor, oil_temperature_K);
 }
 
 /// The flow rate with its band and what led to it. Signs: magnetic force opens (+), spring and flow force close (+),

@@ -84,6 +84,7 @@ constexpr T at_least_zero(T value) {
 
 template <class T>
 constexpr T limited(T value, T lowest, T highest) {
+  if (likely(!(value < lowest) && !(highest < value))) return value;
   return smaller(larger(value, lowest), highest);
 }
 
@@ -97,6 +98,13 @@ template <class T>
 constexpr T limited_size(T value, T most) {
   if (likely(!(magnitude(value) > most))) return value;
   return value < T(0) ? -most : most;
+}
+
+/// The number, no less than zero and no more than `most`, > 0.
+template <class T>
+constexpr T from_zero_to(T most, T value) {
+  if (likely(within(value, most))) return value;
+  return smaller(at_least_zero(value), most);
 }
 
 template <class T>

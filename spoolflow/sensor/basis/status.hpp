@@ -47,6 +47,9 @@ constexpr Status& operator|=(Status& a, Status b) {
 constexpr bool has(Status status, Status bit) {
   return (static_cast<std::uint32_t>(status) & static_cast<std::uint32_t>(bit)) != 0;
 }
+constexpr Status without(Status status, Status bit) {
+  return static_cast<Status>(static_cast<std::uint32_t>(status) & ~static_cast<std::uint32_t>(bit));
+}
 constexpr Status when(bool condition, Status bit) {
   return condition ? bit : Status::none;
 }

@@ -41,25 +41,24 @@ constexpr std::array<T, 2> two(const T* from, int number) {
 /// How far beyond the end of an axis is still noise and no extrapolation, in cells.
 inline constexpr double noise_cells = 0.25;
 
-/// Where a value lies on an axis. `inside` is cleared where it lies outside by more than noise at an end.
-template <int Points, class T>
-constexpr Cell<T> locate(const Axis<T>& axis, T value, bool& inside) {
+/// Where a value lies on an axis. `outside()` is called where it lies outside by more than noise at an end.
+template <int Points, class T, class Outside>
+constexpr Cell<T> locate(const Axis<T>& axis, T value, const Outside& outside) {
   const T raw = (value - axis.first) * axis.per_spacing;
   if (likely(within(raw, T(Points - 1)))) {
     const int index = table_index(raw);
     return {index, raw - T(index)};
   }
   if (raw > T(0)) {
-    if (!(raw <= T(Points - 1 + noise_cells))) inside = false;
+    if (!(raw <= T(Points - 1 + noise_cells))) outside();
     return {Points - 2, T(1)};
   }
-  if (!(raw >= T(-noise_cells))) inside = false;
+  if (!(raw >= T(-noise_cells))) outside();
   return {0, T(0)};
 }
 template <int Points, class T>
 constexpr Cell<T> locate(const Axis<T>& axis, T value) {
-  bool inside = true;
-  return locate<Points>(axis, value, inside);
+  return locate<Points>(axis, value, [] {});
 }
 
 /// A point on an axis that begins at zero, counted in cells, with the cell that holds it.
@@ -131,7 +130,7 @@ struct Curve {
 
   [[nodiscard]] constexpr CurvePoint<T> at(T x) const {
     bool inside = true;
-    const Cell<T> cell = locate<Points>(axis, x, inside);
+    const Cell<T> cell = locate<Points>(axis, x, [&] { inside = false; });
     const auto from = values.data() + cell.index;
     const auto [low, high] = two(from, 0);
     const T rise = high - low;
@@ -176,8 +175,9 @@ struct Map {
   }
   [[nodiscard]] constexpr MapPoint<T> at(T row, T column) const {
     bool inside = true;
-    const Cell<T> row_cell = locate<Rows>(row_axis, row, inside),
-                  column_cell = locate<Columns>(column_axis, column, inside);
+    const auto outside = [&] { inside = false; };
+    const Cell<T> row_cell = locate<Rows>(row_axis, row, outside),
+                  column_cell = locate<Columns>(column_axis, column, outside);
     MapPoint<T> out = at(row_cell, column_cell);
     out.inside = inside;
     return out;

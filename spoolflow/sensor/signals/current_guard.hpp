@@ -32,10 +32,10 @@ inline constexpr double questioned_change_share = 0.25;
 template <class T, class Possible>
 SPOOLFLOW_INLINE constexpr bool is_held(const CurrentLimits<T>& limits, const CurrentStep<T>& current, T time_step_s,
                                         int held, const Possible& possible_A) {
-  const T beyond_A = magnitude(current.now_A - current.before_A) - limits.jump_A;
-  const T fastest_A = limits.slope_A_per_s * time_step_s;
-  return unlikely(beyond_A > T(questioned_change_share) * fastest_A) && limits.jump_A > T(0) &&
-         held < most_held_currents && beyond_A > possible_A(fastest_A);
+  const T change_A = magnitude(current.now_A - current.before_A);
+  const T usual_A = limits.jump_A + T(questioned_change_share) * limits.slope_A_per_s * time_step_s;
+  return unlikely(change_A > usual_A) && limits.jump_A > T(0) && held < most_held_currents &&
+         change_A - limits.jump_A > possible_A(limits.slope_A_per_s * time_step_s);
 }
 
 /// Samples in a row in which the last current stood in, this one included.

@@ -104,12 +104,13 @@ SPOOLFLOW_INLINE constexpr Dither<T> follow_dither(DitherState<T>& state, T curr
   state.since_s += time_step_s;
   const T back_A = state.direction * (state.extreme_A - current_A);
   if (back_A < T(0)) state.extreme_A = current_A;
-  const T least_A = T(least_dither_swing_share) * largest_current_A;
-  const bool turns = back_A > T(0.5) * least_A && back_A > T(turning_share) * state.swing_A;
+  const bool turns =
+      back_A > T(0.5 * least_dither_swing_share) * largest_current_A && back_A > T(turning_share) * state.swing_A;
   const bool begins = turns && state.direction < T(0);
   if (turns) {
     const T swing_A = state.direction * (state.extreme_A - state.turned_A);
-    const bool regular = swing_A > least_A && detail::alike(swing_A, state.swing_A, T(0)) &&
+    const bool regular = swing_A > T(least_dither_swing_share) * largest_current_A &&
+                         detail::alike(swing_A, state.swing_A, T(0)) &&
                          (!begins || detail::alike(state.since_s, state.period_s, time_step_s));
     detail::turn(state, swing_A, regular, current_A);
     if (begins) state.period_s = state.since_s;

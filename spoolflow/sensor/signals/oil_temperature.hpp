@@ -63,9 +63,9 @@ constexpr void follow_temperature(OilState<T>& oil, T measured_K, const Due<T>& 
   }
   const T change_K = measured_K - oil.temperature_K;
   const bool implausible = magnitude(change_K) > T(oil_leap_K) || !is_oil_temperature(measured_K);
-  const T pace = smaller(due.since_s * T(1 / temperature_smoothing_s), T(1));
+  const T pace = smaller(due.since_s() * T(1 / temperature_smoothing_s), T(1));
   oil.temperature_K += (implausible ? T(0) : pace) * change_K;
-  if (implausible || oil.fault_s > T(0)) detail::count_fault(oil, measured_K, implausible, due.since_s);
+  if (implausible || oil.fault_s > T(0)) detail::count_fault(oil, measured_K, implausible, due.since_s());
 }
 
 }  // namespace spoolflow::sensor

@@ -144,15 +144,24 @@ template <class T>
 struct PositionPoint {
   T position_m;  ///< free of drift and faults
   Motion motion;
-  bool fault;            ///< a jump of the signal is taken out of it, or marked
   T travel_m;            ///< sign of the velocity of `motion`
   T velocity_m_per_s{};  ///< smoothed
   T acceleration_m_per_s2{};
-  T elsewhere_m{};  ///< under a fault: where the spool is if the jump is the other way about than taken
   T noise_times{};  ///< the signal's noise over the calibrated one, >= 1
   PositionBlock<T> block{};
   T side{1};  ///< sign of the valve's position > 0 on the side from which this is seen
 };
+
+/// Whether a jump of the signal is taken out of the position, or marked.
+template <class T>
+constexpr bool is_doubted(const PositionState<T>& state) {
+  return !is_zero(state.fault_s);
+}
+/// Then: where the spool is if the jump is the other way about than taken [m], in the signs of `point`.
+template <class T>
+constexpr T elsewhere_m(const PositionState<T>& state, const PositionPoint<T>& point) {
+  return point.position_m + point.side * state.elsewhere_m;
+}
 
 static_assert(std::is_trivially_copyable_v<PositionState<float>>);
 

@@ -89,10 +89,9 @@ SPOOLFLOW_INLINE constexpr void follow_velocity(const PositionSensor<T>& sensor,
     const T per_block_s = T(1) / larger(state.block_s, T(shortest_block_s));
     const T velocity_m_per_s = (now_m - oldest_m) * (per_block_s * T(1.0 / (3 * window)));
     const T acceleration = change_m * (per_block_s * per_block_s * T(1.0 / (2 * window * window)));
-    const T hardest = sensor.hardest_acceleration_m_per_s2, fastest = T(fastest_m_per_s);
-    state.acceleration_m_per_s2 = limited_size(acceleration, hardest);
-    state.velocity_m_per_s += (limited(velocity_m_per_s, -fastest, fastest) - state.velocity_m_per_s) * state.block_s /
-                              (T(velocity_smoothing_s) + state.block_s);
+    state.acceleration_m_per_s2 = limited_size(acceleration, sensor.hardest_acceleration_m_per_s2);
+    state.velocity_m_per_s += (limited_size(velocity_m_per_s, T(fastest_m_per_s)) - state.velocity_m_per_s) *
+                              state.block_s / (T(velocity_smoothing_s) + state.block_s);
   }
 }
 
@@ -211,24 +210,22 @@ constexpr void begin(PositionState<T>& state, T position_m) {
   state.motion = Motion::rest;
 }
 
-/// One sample. `elastic_m()` >= 0 is how far the contacts give way under the friction that they hold, which is asked
-/// where the spool may creep.
+/// One sample. `drift_m`: see drift_m(). `elastic_m()` >= 0 is how far the contacts give way under the friction that
+/// they hold, which is asked where the spool may creep.
 template <class T, class Elastic>
 SPOOLFLOW_INLINE constexpr PositionPoint<T> track(const PositionSensor<T>& sensor, PositionState<T>& state,
-                                                  const Sample<T>& sample, const QuietCoil<T>& coil,
-                                                  T oil_temperature_K, const Dither<T>& dither, bool freed,
-                                                  const Elastic& elastic_m) {
+                                                  const Sample<T>& sample, const QuietCoil<T>& coil, T drift_m,
+                                                  const Dither<T>& dither, bool freed, const Elastic& elastic_m) {
   const T time_step_s = sample.time_step_s;
   const bool follows_block = state.velocity_due;
   if (follows_block) detail::follow_velocity(sensor, state);
   const T step_before_m = state.step_m;
-  const T position_m =
-      detail::without_faults(sensor, state, sample, coil, drift_free_m(sensor, sample.position_m, oil_temperature_K));
+  const T position_m = detail::without_faults(sensor, state, sample, coil, sample.position_m - drift_m);
   state.sum_m += position_m;
   state.sum_s += time_step_s;
   state.samples = state.samples + 1;
   const bool whole = state.sum_s > T(block_length_s) - T(0.5) * time_step_s;  // no matter how the sum rounds
-  const bool dithers = freed && dither.present && state.sum_s < T(longest_dither_block_s);
+  const bool dithers = dither.present && freed && state.sum_s < T(longest_dither_block_s);
   const bool closed = whole && (dither.begins || !dithers);
   if (closed) {
     detail::follow_noise(sensor, state.noise, magnitude(state.step_m - step_before_m));
@@ -238,11 +235,9 @@ SPOOLFLOW_INLINE constexpr PositionPoint<T> track(const PositionSensor<T>& senso
   const bool even = ((state.newest + state.samples) & 1) == 0;
   return {position_m,
           state.motion,
-          !is_zero(state.fault_s),
           state.travel_m,
           state.velocity_m_per_s,
           state.acceleration_m_per_s2,
-          position_m + state.elsewhere_m,
           state.noise.times,
           {closed, follows_block, state.lone, even, state.block_s}};
 }

@@ -19,7 +19,6 @@ constexpr PositionPoint<T> mirrored(bool seen_from_a, PositionPoint<T> point) {
   point.travel_m = -point.travel_m;
   point.velocity_m_per_s = -point.velocity_m_per_s;
   point.acceleration_m_per_s2 = -point.acceleration_m_per_s2;
-  point.elsewhere_m = -point.elsewhere_m;
   point.side = -point.side;
   return point;
 }

@@ -51,8 +51,9 @@ constexpr void begin(const WholeValveParameters<T>& valve, WholeValveState<T>& s
   state.opens_a = sample.position_m < T(0);
   const Sides<T> now = sides(valve, state.opens_a);
   begin(now.open, state.open, sample_of(sample, state.opens_a));
-  sensor::begin(state.open.position,
-                drift_free_m(valve.b->position_sensor, sample.position_m, state.open.oil.temperature_K));
+  state.open.drift_m = drift_m(valve.b->position_sensor, state.open.oil.temperature_K);
+  sensor::begin(state.open.position, sample.position_m - state.open.drift_m);
+  forget(state.idle.actuator.coil);
   sensor::begin(now.idle.pressure, state.idle.pressure, now.idle.highest_pressure_difference_Pa(),
                 now.idle.friction.operation_ratio, now.idle.band.unobserved_factor);
   state.idle.held_currents = 0;
@@ -111,7 +112,7 @@ SPOOLFLOW_INLINE constexpr void follow_idle(const ObserverParameters<T>& valve, 
         Sample<T> mean = sample;
         mean.time_step_s = idle.waiting_s;
         mean.current_A = idle.waiting_s > T(0) ? idle.charge_As / idle.waiting_s : sample.current_A;
-        magnetise(valve.actuator, idle.actuator, mean, begins);
+        magnetise(valve.actuator, idle.actuator, mean);
         widen_flux_range(idle.actuator);
         idle.waiting_s = idle.charge_As = T(0);
       }
@@ -145,10 +146,10 @@ template <class T>
 SPOOLFLOW_INLINE constexpr void observe_path(const ObserverParameters<T>& valve, WholeValveState<T>& state,
                                              const WholeValveSample<T>& sample, const Sample<T>& own,
                                              const PositionPoint<T>& position, const Dither<T>& dither,
-                                             const Schedule<T>& schedule, bool opens_a, bool begins) {
+                                             const Schedule<T>& schedule, bool opens_a) {
   const bool ports_measured = measured(sample.ports);
   if (ports_measured) use_measured(valve, state.open.pressure, path_drops(sample.ports, opens_a));
-  observe(valve, state.open, own, position, dither, schedule, state.idle.magnetic_force_N, begins);
+  observe(valve, state.open, own, position, dither, schedule, state.idle.magnetic_force_N);
   if (ports_measured) {
     const PathDrops<T> drops = path_drops(sample.ports, opens_a);
     use_measured(valve, state.open.pressure, drops);
@@ -179,7 +180,7 @@ SPOOLFLOW_INLINE constexpr void observe_side(bool opens_a, const Sides<T>& now, 
 
   const bool busy = !begins && position.block.closed;
   follow_idle(now.idle, state.idle, other, begins, busy);
-  observe_path(now.open, state, sample, own, position, dither, schedule, opens_a, begins);
+  observe_path(now.open, state, sample, own, position, dither, schedule, opens_a);
   state.open.last = mirrored(opens_a, state.open.last);
   mark(state.open.last.status, near && !(position.position_m < now.open.closed_below_m), Status::sign_undetermined);
 }
@@ -278,11 +279,11 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
   const ObserverParameters<T>& before = sides(valve, state.opens_a).open;
   const Dither<T> dither =
       follow_dither(state.open.dither, own.current_A, before.largest_current_A, sample.time_step_s);
-  const PositionPoint<T> position = track(
-      position_sensor, state.open.position, signed_sample, detail::quiet_coil(before), state.open.oil.temperature_K,
-      dither, state.open.swing.frees, [&] { return elastic_m(before.friction, state.open.friction); });
+  const PositionPoint<T> position =
+      track(position_sensor, state.open.position, signed_sample, detail::quiet_coil(before), state.open.drift_m, dither,
+            state.open.swing.frees, [&] { return elastic_m(before.friction, state.open.friction); });
   Schedule<T> schedule = detail::schedule_of(position.block);
-  follow_temperature(state.open.oil, own.oil_temperature_K, schedule.oil_temperature);
+  detail::follow_oil(position_sensor, state.open, own.oil_temperature_K, schedule.oil_temperature);
   const T from_centre_m = state.opens_a ? -position.position_m : position.position_m;
   const bool changes = from_centre_m < T(-centre_hysteresis_m);
   if (changes) {
