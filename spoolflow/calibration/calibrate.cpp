@@ -257,7 +257,7 @@ model::Model calibrate(const recording::Campaign& campaign, const std::string& t
                      instruments.force_uncertainty_N, instruments.pressure_uncertainty_Pa,
                      instruments.temperature_uncertainty_K};
   limit_currents(out);
-  apply(campaign.environment, out);
+  apply(campaign.environment.value_or(recording::Environment{}), out);
   out.provenance = std::move(provenance);
   for (const std::string& each : recordings.directions())
     std::ranges::move(known_quantities(recordings.of(each), model::of_direction(out, each)),

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "spoolflow/calibration/numerics/covariance.hpp"
+
 namespace spoolflow::calibration {
 namespace {
 
@@ -57,14 +59,36 @@ sensor::CurrentLimits<double> current_limits(const sensor::ObserverParameters<do
           rate_V / least_H};
 }
 
+/// The machine's part of entries that also hold what is open of the unit itself: of a unit of a type what units differ
+/// by, of a valve that references moved what these leave open of its flow.
+model::EnvironmentWithoutSpread machines_part(const model::Model& of_one) {
+  if (of_one.type) return of_one.type->environment;
+  double wear_share = 0;
+  for (const model::Adaptation& each : of_one.provenance.adaptations)
+    if (each.wear) wear_share = each.wear->flow_share;
+  const sensor::Environment<double>& now = of_one.observer->parameters.environment;
+  return {now.force_N, now.friction_share, with_instead(now.flow_share, wear_share, 0), 0};
+}
+
 }  // namespace
 
 void apply(const recording::Environment& environment, model::Model& model) {
-  const auto into = [&](std::optional<model::Observer>& observer) {
-    if (observer) observer->parameters.environment = of_valve(environment, model.fluid, observer->parameters);
-  };
-  into(model.observer);
-  if (model.p_to_a) into(model.p_to_a->observer);
+  for (const std::string& direction : model::directions(model)) {
+    model::Model of_one = model::of_direction(model, direction);
+    if (!of_one.observer) continue;
+    const model::EnvironmentWithoutSpread before = machines_part(of_one);
+    sensor::ObserverParameters<double>& valve = of_one.observer->parameters;
+    const sensor::Environment<double> declared = of_valve(environment, model.fluid, valve), now = valve.environment;
+    valve.environment = declared;
+    valve.environment.force_N = with_instead(now.force_N, before.force_N, declared.force_N);
+    valve.environment.friction_share = with_instead(now.friction_share, before.friction_share, declared.friction_share);
+    valve.environment.flow_share = with_instead(now.flow_share, before.flow_share, declared.flow_share);
+    if (of_one.type) {
+      of_one.type->environment = {declared.force_N, declared.friction_share, declared.flow_share,
+                                  before.breakaway_share};
+    }
+    model::put_direction(model, direction, std::move(of_one));
+  }
 }
 
 void limit_currents(model::Model& model) {

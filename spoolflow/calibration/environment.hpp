@@ -9,8 +9,9 @@ namespace spoolflow::calibration {
 /// flow force in proportion to the pressure difference holds so far (paper (2)).
 inline constexpr double usual_highest_pressure_ratio = 1.2;
 
-/// Puts the environment into every observer of the model; a model without one stays as it is. `environment.highest_Pa`
-/// below the calibrated pressure difference leaves that.
+/// Puts the environment into every observer of the model, in place of the one before; a model without observer stays as
+/// it is. What is open of the unit itself stays, too: what units of its type differ by, and what its references leave
+/// open. `environment.highest_Pa` below the calibrated pressure difference leaves that.
 void apply(const recording::Environment& environment, model::Model& model);
 
 /// Reports every observer of the model how the coil current changes at most between two samples, by the coil's

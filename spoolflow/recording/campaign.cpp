@@ -188,7 +188,7 @@ void read_rest(const TomlTable& document, OutsideFiles outside, Campaign& campai
   if (read.contains("instruments")) campaign.instruments = instruments_of(table_of(document, "instruments"));
   if (read.contains("channels")) campaign.channels = read_channels(table_of(document, "channels"));
   if (read.contains("load")) campaign.load = load_of(table_of(document, "load"));
-  campaign.environment = environment_of(document, "bench");
+  if (read.contains("environment")) campaign.environment = environment_of(document, "bench");
   if (read.contains("tolerances")) campaign.tolerances = tolerances_of(table_of(document, "tolerances"));
   const toml::array* recordings = read["recording"].as_array();
   if (recordings == nullptr || recordings->empty()) {
@@ -235,6 +235,7 @@ Campaign read_campaign(const std::filesystem::path& file, OutsideFiles outside) 
   Campaign campaign;
   campaign.valve = valve_of(table_of(document, "valve"));
   read_rest(document, outside, campaign);
+  if (!campaign.environment) campaign.environment = environment_of(document, "bench");
   return campaign;
 }
 

@@ -76,8 +76,8 @@ struct Campaign {
   CampaignInstruments instruments;
   CampaignLoad load;
   CampaignTolerances tolerances{};
-  Environment environment{};  ///< of the machine that the valve is for
-  ChannelMap channels{};      ///< of all files that have the columns; a recording's own entries come before it
+  std::optional<Environment> environment{};  ///< of the machine that the valve is for; absent: that of the unit's type
+  ChannelMap channels{};  ///< of all files that have the columns; a recording's own entries come before it
   std::vector<CampaignRecording> recordings;
 
   [[nodiscard]] std::vector<const CampaignRecording*> of(Protocol protocol) const;

@@ -56,6 +56,20 @@ TEST(DeclaredMachine, ReachesTheDeclaredPressureButNeverLessThanTheCalibratedOne
   EXPECT_DOUBLE_EQ(of(model).highest_pressure_Pa, calibrated_Pa);
 }
 
+TEST(DeclaredMachine, LeavesOpenWhatReferencesOfTheValveLeaveOpen) {
+  model::Model model = example();
+  constexpr double left_open = 0.06;
+  model.provenance.adaptations.push_back({});
+  model.provenance.adaptations.back().wear.emplace().flow_share = left_open;
+  model.observer->parameters.environment.flow_share = left_open;
+  recording::Environment declared;
+  declared.density = 0.32;
+  apply(declared, model);
+  EXPECT_DOUBLE_EQ(of(model).flow_share, 0.1);  // 6 and 8 %
+  apply({}, model);
+  EXPECT_DOUBLE_EQ(of(model).flow_share, left_open);
+}
+
 TEST(DeclaredMachine, IsWrittenWithTheModelAndReadAgain) {
   model::Model model = example();
   apply(recording::machine_environment(), model);

@@ -71,7 +71,7 @@ TEST(Environment, OfACampaignIsTheBenchWhereItSaysNothing) {
         std::pair{std::string("[environment]\nripple_bar = 2\n"), "bench"}}) {
     const TemporaryFile file("campaign.toml", text + rest);
     std::ofstream(file.folder() / "spring.csv") << "time_s\n";
-    EXPECT_EQ(read_campaign(file.path()).environment.kind, kind);
+    EXPECT_EQ(read_campaign(file.path()).environment->kind, kind);
   }
 }
 

@@ -1,7 +1,6 @@
 #include "spoolflow/calibration/references/wear.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include "spoolflow/calibration/numerics/covariance.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -11,12 +10,6 @@ Deviations deviations_of(const model::WearState& wear) {
   out[at(Variation::edge_width)] = wear.edge_width;
   out[at(Variation::position_zero)] = wear.position_zero_m;
   return out;
-}
-
-/// `whole` with `from` of it, as root of the sum of squares, replaced by `to`.
-double with_instead(double whole, double from, double to) {
-  if (from == to) return whole;
-  return std::hypot(std::sqrt(std::max(0.0, whole * whole - from * from)), to);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "spoolflow/calibration/completeness.hpp"
+#include "spoolflow/calibration/environment.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/observer.hpp"
 #include "spoolflow/calibration/type/one_side.hpp"
@@ -273,6 +274,7 @@ CalibratedUnit calibrate_unit(const model::Model& type, const std::string& type_
   CalibratedUnit out =
       unit_despite(provenance.doubts, type, type_file, {unit.valve.name, unit.file.string(), std::move(runs)});
   add_edges(provenance.doubts, out);
+  if (unit.environment) apply(*unit.environment, out.model);
   if (unit.valve.open_stop_m) set_open_stop(*unit.valve.open_stop_m, out.model);
   out.model.provenance = std::move(provenance);
   progress("done", 1.0);

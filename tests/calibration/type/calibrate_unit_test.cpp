@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "spoolflow/calibration/environment.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/type/spread.hpp"
 #include "spoolflow/calibration/type/type_model.hpp"
@@ -91,6 +92,21 @@ double flow_error(const sensor::ObserverParameters<double>& found, const sensor:
   return here.conductance * std::sqrt(estimated_Pa) / (there.conductance * std::sqrt(pressure_Pa)) - 1;
 }
 
+const sensor::Environment<double>& machine_of(const model::Model& model) {
+  return model.observer->parameters.environment;
+}
+
+TEST(TypeModel, StaysAsWideAsItsUnitsDifferWhateverMachineIsDeclared) {
+  model::Model declared = type();
+  apply(recording::machine_environment(), declared);
+  EXPECT_GE(machine_of(declared).force_N, machine_of(type()).force_N);
+  EXPECT_GT(machine_of(declared).flow_share, machine_of(type()).flow_share);
+  EXPECT_GT(machine_of(declared).friction_share, machine_of(type()).friction_share);
+  apply({}, declared);  // a bench leaves nothing open but the units' spread
+  EXPECT_DOUBLE_EQ(machine_of(declared).force_N, machine_of(type()).force_N);
+  EXPECT_DOUBLE_EQ(machine_of(declared).flow_share, machine_of(type()).flow_share);
+}
+
 TEST(CalibrateUnit, FindsAUnitsFlowWithinAHundredthWhereItsTypeErrsByMore) {
   Deviations deviations{};
   deviations[at(Variation::spring_preload)] = 0.04;
@@ -125,14 +141,21 @@ TEST(CalibrateUnit, ASpoolThatSticksAndSlipsUnderPressureShowsItsForcesAsOftenAs
     EXPECT_NEAR(flow_error(unit.model.observer->parameters, truth, position_m), 0, 0.01);
 }
 
-TEST(CalibrateUnit, WhatNoRecordingShowsStaysAtTheTypesSpreadAndIsNamed) {
-  const recording::TemporaryFile file("unit.toml",
-                                      "[[recording]]\nprotocol = \"unpressurised_strokes\"\nfile = \"dry.csv\"\n");
+/// A unit of strokes with the pump off whose file holds text before and behind them.
+CalibratedUnit unit_with(const std::string& before, const std::string& behind = "") {
+  const recording::TemporaryFile file("unit.toml", before +
+                                                       "[[recording]]\nprotocol = \"unpressurised_strokes\"\nfile = "
+                                                       "\"dry.csv\"\n" +
+                                                       behind);
   write_strokes(file.folder() / "dry.csv", type().observer->parameters, {0, 0}, type().valve.stroke_m);
   std::ofstream(file.folder() / "type.json") << "{}";
-  const UnitCalibration unit = calibrated_unit(type(), (file.folder() / "type.json").string(),
-                                               recording::read_unit_campaign(file.path(), valve_of_type(type())),
-                                               "test", [](const std::string&, double) {});
+  return calibrate_unit(type(), (file.folder() / "type.json").string(),
+                        recording::read_unit_campaign(file.path(), valve_of_type(type())), "test",
+                        [](const std::string&, double) {});
+}
+
+TEST(CalibrateUnit, WhatNoRecordingShowsStaysAtTheTypesSpreadAndIsNamed) {
+  const UnitCalibration unit = unit_with("").directions.at(0);
   for (const UnitParameter& parameter : unit.parameters) {
     const bool of_pressure = parameter.name.starts_with("edge") || parameter.name.starts_with("flow_force") ||
                              parameter.name == "pressure_friction";
@@ -144,6 +167,13 @@ TEST(CalibrateUnit, WhatNoRecordingShowsStaysAtTheTypesSpreadAndIsNamed) {
       EXPECT_TRUE(parameter.seen) << parameter.name;
     }
   }
+}
+
+TEST(CalibrateUnit, TheUnitsOwnMachineWidensItsBand) {
+  const model::Model bench = unit_with("").model, machine = unit_with("environment = \"machine\"\n").model;
+  EXPECT_EQ(machine_of(bench).leakage_m3_per_s, 0);
+  EXPECT_GT(machine_of(machine).leakage_m3_per_s, 0);
+  EXPECT_GT(machine_of(machine).force_N, machine_of(bench).force_N);
 }
 
 /// What the type calls a unit that hangs for a third of a second at each place, with that logarithm of its ageing time.
