@@ -13,6 +13,7 @@
 #include "spoolflow/plausibility/frozen_channel.hpp"
 #include "spoolflow/plausibility/limits.hpp"
 #include "spoolflow/plausibility/motion_delay.hpp"
+#include "spoolflow/plausibility/oil_temperature.hpp"
 #include "spoolflow/plausibility/relation.hpp"
 #include "spoolflow/plausibility/signals/coil_signals.hpp"
 #include "spoolflow/plausibility/signals/sample_grid.hpp"
@@ -68,6 +69,7 @@ std::vector<Finding> channel_findings(const std::vector<const Recording*>& campa
   for (const Recording& means : all) {
     add(means, true, frozen_channel(means));
     add(means, true, signed_coil_currents(means));
+    add(means, true, temperature_in_another_unit(means, bench_oil_K, "benches keep their oil at"));
     for (const std::string& leap : resistance_leaps(means)) add(means, true, leap);
     for (const std::string& zero : currents_without_voltage(means)) add(means, false, zero);
     if (changes_per_s * range_of(means.column(Channel::time)) >= fewest_oil_changes)

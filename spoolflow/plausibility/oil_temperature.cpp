@@ -34,19 +34,18 @@ constexpr std::array misreadings{Misread{"in degF, not degC", "degF", "C"}, Misr
 
 }  // namespace
 
-std::string temperature_in_another_unit(const recording::Recording& run, const model::Range& calibrated_K) {
-  if (!run.has(Channel::oil_temperature) || !(calibrated_K.upper > 0)) return {};
+std::string temperature_in_another_unit(const recording::Recording& run, const model::Range& expected_K,
+                                        std::string_view whence) {
+  if (!run.has(Channel::oil_temperature) || !(expected_K.upper > 0)) return {};
   const double read_K = numerics::median(run.column(Channel::oil_temperature));
-  const bool hot = read_K > std::max(calibrated_K.upper + usual_distance_K, hottest_usual_oil_K);
+  const bool hot = read_K > std::max(expected_K.upper + usual_distance_K, hottest_usual_oil_K);
   if (!hot && !(read_K < coldest_oil_K)) return {};
   for (const Misread& misread : misreadings) {
     const double K = misread.true_K(read_K);
-    if (!(K > calibrated_K.lower - usual_distance_K && K < calibrated_K.upper + usual_distance_K)) continue;
-    return fmt::format(
-        "oil_temperature looks {}: so read it is {:.0f} degC and not {:.0f}; the model's valve was "
-        "calibrated at {:.0f} to {:.0f} degC",
-        misread.looks, units::degC_from_K(K), units::degC_from_K(read_K), units::degC_from_K(calibrated_K.lower),
-        units::degC_from_K(calibrated_K.upper));
+    if (!(K > expected_K.lower - usual_distance_K && K < expected_K.upper + usual_distance_K)) continue;
+    return fmt::format("oil_temperature looks {}: so read it is {:.0f} degC and not {:.0f}; {} {:.0f} to {:.0f} degC",
+                       misread.looks, units::degC_from_K(K), units::degC_from_K(read_K), whence,
+                       units::degC_from_K(expected_K.lower), units::degC_from_K(expected_K.upper));
   }
   return {};
 }

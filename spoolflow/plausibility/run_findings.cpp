@@ -271,7 +271,7 @@ std::vector<Finding> signal_findings(const Recording& means, const RunMeans& run
     if (!text.empty()) out.push_back({cannot_be, text});
   };
   add(false, frozen_oil_temperature_alone(means));
-  add(false, temperature_in_another_unit(means, calibrated_K));
+  add(false, temperature_in_another_unit(means, calibrated_K, "the model's valve was calibrated at"));
   add(false, leaping_temperature(means));
   for (const std::string& clipped : run.clipped().findings()) add(true, clipped);
   if (!is_resampled) {

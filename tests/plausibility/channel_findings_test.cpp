@@ -46,6 +46,18 @@ TEST(ChannelFindings, AreNoneOfSoundCampaigns) {
   EXPECT_THAT(all_texts(channel_findings(example.all())), testing::IsEmpty());
 }
 
+TEST(ChannelFindings, NameABenchsOilInDegFAndNoneOfABenchThatIsHot) {
+  const auto said = [](double read_degC) {
+    return said_of(sound_size_10(), "axial_force_map_50.csv", [&](Recording& map) {
+      for (double& oil_K : map.column(Channel::oil_temperature)) oil_K += units::K_from_degC(read_degC) - 323.15;
+    });
+  };
+  EXPECT_THAT(said(122),
+              testing::HasSubstr("axial_force_map_50.csv: oil_temperature looks in degF, not degC: so read it "
+                                 "is 50 degC and not 122; benches keep their oil at 0 to 80 degC"));
+  EXPECT_THAT(said(95), testing::IsEmpty());
+}
+
 TEST(ChannelFindings, NameAChannelOfABenchTestThatIsFrozenForHalfOfIt) {
   const std::vector<std::pair<std::string, Channel>> channels{{"spring.csv", Channel::axial_force},
                                                               {"solenoid_map.csv", Channel::force},
