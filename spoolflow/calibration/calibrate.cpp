@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/calibration/condensed.hpp"
+#include "spoolflow/calibration/edges/metering_edge_fit.hpp"
 #include "spoolflow/calibration/edges_in_operation.hpp"
 #include "spoolflow/calibration/environment.hpp"
 #include "spoolflow/calibration/fits/bench_dither.hpp"
@@ -71,6 +72,18 @@ plausibility::Finding without_force_map(const recording::Recording& dynamic) {
                              dynamic.file.filename().string())};
 }
 
+/// Recordings of one protocol and edge of which others of the same oil leave some aside.
+std::vector<std::string> left_aside(const ReadCampaign& recordings, const std::string& direction) {
+  const CampaignRecordings of = recordings.of(direction);
+  const FlowBenchRecordings metered = recordings.on_flow_bench(direction);
+  const AxialForceMaps& maps = of.axial_force_maps;
+  std::vector<Recordings> alike{metered.metering, metered.metering_outlet};
+  if (of.flow_bench == nullptr) alike = {maps.joined, maps.inlet, maps.outlet};
+  std::vector<std::string> out;
+  for (const Recordings& each : alike) std::ranges::move(maps_left_aside(each), std::back_inserter(out));
+  return out;
+}
+
 /// What force benches recorded over the whole stroke.
 Recordings whole_strokes(const ReadCampaign& recordings) {
   Recordings out;
@@ -118,6 +131,7 @@ std::vector<std::string> findings_about(const ReadCampaign& recordings, const re
     for (const recording::Recording* unused : recordings.unused(direction)) keep({without_force_map(*unused)});
     const CampaignRecordings of = recordings.of(direction);
     const AxialForceMaps& maps = of.axial_force_maps;
+    for (std::string& each : left_aside(recordings, direction)) keep({{false, std::move(each)}});
     if (!maps.joined.empty()) {
       const plausibility::Benches path = benches_of(of, maps.joined, of.operation, campaign);
       keep(plausibility::campaign_findings(path));

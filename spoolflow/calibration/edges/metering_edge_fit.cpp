@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/calibration/fits/bench_strokes.hpp"
 #include "spoolflow/calibration/numerics/fitted_parameters.hpp"
 #include "spoolflow/calibration/numerics/interpolation.hpp"
 #include "spoolflow/calibration/numerics/linear_least_squares.hpp"
@@ -115,7 +116,7 @@ MeteringEdgeFit fit_metering_edge(std::vector<AxialForceFit> fits, const sensor:
   std::vector<const AxialForceFit*> used;
   std::vector<double> known_K;
   for (const AxialForceFit& fit : fits) {
-    if (!known_K.empty() && fit.oil_temperature_K < known_K.back() + 1.0) continue;  // the same temperature again
+    if (!known_K.empty() && fit.oil_temperature_K < known_K.back() + same_oil_temperature_K) continue;
     known_K.push_back(fit.oil_temperature_K);
     used.push_back(&fit);
   }
@@ -159,6 +160,29 @@ MeteringEdgeFit fit_metering_edge(std::vector<AxialForceFit> fits, const sensor:
         edge.conductance.node(layer, row, column) = over_temperature(&EdgeColumn::conductance);
       }
     }
+  }
+  return out;
+}
+
+std::vector<std::string> maps_left_aside(const std::vector<const recording::Recording*>& maps) {
+  std::vector<std::string> out;
+  for (std::size_t k = 1; k < maps.size(); ++k) {
+    const double its_K = mean_oil_temperature_K(*maps[k]);
+    const auto same = std::find_if(maps.begin(), maps.begin() + static_cast<std::ptrdiff_t>(k), [&](const auto* other) {
+      return !(std::abs(mean_oil_temperature_K(*other) - its_K) >= same_oil_temperature_K);
+    });
+    if (*same == maps[k]) continue;
+    const std::string both =
+        fmt::format("{} and {}", (*same)->file.filename().string(), maps[k]->file.filename().string());
+    const bool known = std::isfinite(its_K + mean_oil_temperature_K(**same));
+    out.push_back(known
+                      ? fmt::format("{} are both of oil at {:.1f} degC, and one of them is left aside; name one "
+                                    "recording an oil temperature, with all its pressure differences",
+                                    both, units::degC_from_K(its_K))
+                      : fmt::format("{}: no oil temperature tells them apart, one of them is left aside, and the band "
+                                    "holds at one unknown oil temperature alone; record oil_temperature, or name its "
+                                    "column in a channel map",
+                                    both));
   }
   return out;
 }

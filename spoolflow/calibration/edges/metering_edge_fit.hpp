@@ -1,5 +1,6 @@
 #pragma once
 /// Flow force, spool friction and flow over position, pressure difference and oil temperature, for the full sensor.
+#include <string>
 #include <vector>
 
 #include "spoolflow/calibration/fits/axial_force.hpp"
@@ -8,6 +9,9 @@
 #include "spoolflow/sensor/metering_edge.hpp"
 
 namespace spoolflow::calibration {
+
+/// Of two recordings of oil that differs by less, one counts.
+inline constexpr double same_oil_temperature_K = 1;
 
 struct MeteringEdgeFit {
   sensor::MeteringEdge<double> edge;
@@ -21,5 +25,9 @@ struct MeteringEdgeFit {
 /// differences from zero, where there is neither flow nor flow force and friction is that of the spring recording.
 [[nodiscard]] MeteringEdgeFit fit_metering_edge(std::vector<AxialForceFit> fits, const sensor::Spring<double>& spring,
                                                 const std::vector<double>& unloaded_friction_N);
+
+/// A sentence for each of the recordings of one edge that fit_metering_edge() leaves aside, or another for its sake: of
+/// the same oil temperature, or of one that nobody recorded.
+[[nodiscard]] std::vector<std::string> maps_left_aside(const std::vector<const recording::Recording*>& maps);
 
 }  // namespace spoolflow::calibration
