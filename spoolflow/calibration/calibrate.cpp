@@ -148,11 +148,8 @@ std::vector<std::string> findings_about(const ReadCampaign& recordings, const re
     if (centre) keep({*centre});
   }
   if (refused.empty() && paths.size() > 1) {
-    for (const recording::Recording* run : runs) {
-      plausibility::RunMeans means;
-      means.take({run->columns, run->size()});
-      keep(plausibility::run_findings(paths, means, run->file));
-    }
+    for (const recording::Recording* run : runs)
+      keep(plausibility::run_findings(paths, plausibility::RunMeans(*run), run->file));
   }
   if (contradictions == Contradictions::refused) refuse(campaign, refused);
   return out;

@@ -27,6 +27,8 @@ inline constexpr double least_gap_s = 1;
 /// flow are named as there.
 class RunMeans {
  public:
+  RunMeans() = default;
+  explicit RunMeans(const recording::Recording& run) { take({run.columns, run.size()}); }
   void take(const recording::SampleBlock& block);
   [[nodiscard]] recording::Recording means(const std::filesystem::path& file) const;
   [[nodiscard]] const Gaps& gaps() const { return gaps_; }

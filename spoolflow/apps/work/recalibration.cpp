@@ -8,6 +8,10 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/calibration/numerics/calibration_error.hpp"
+#include "spoolflow/plausibility/known_valve.hpp"
+#include "spoolflow/plausibility/run_findings.hpp"
+#include "spoolflow/plausibility/run_means.hpp"
 #include "spoolflow/recording/coil_channels.hpp"
 #include "spoolflow/recording/reader.hpp"
 
@@ -71,6 +75,29 @@ void refuse_used_again(const model::Model& model, const std::vector<std::filesys
   }
 }
 
+/// What speaks against the recordings, so that they are no evidence of the valve.
+std::vector<std::string> doubts_about(const std::vector<recording::Recording>& recordings, const model::Model& model) {
+  const std::vector<plausibility::KnownValve> known = plausibility::known_valve(model);
+  std::vector<std::string> out;
+  for (const recording::Recording& run : recordings) {
+    for (plausibility::Finding& finding : plausibility::run_findings(known, plausibility::RunMeans(run), run.file))
+      out.push_back(std::move(finding.text));
+  }
+  return out;
+}
+
+/// The same as calibration::recalibrate(); a refusal says what speaks against the recordings, too.
+calibration::RecalibratedValve recalibrated_despite(const std::vector<std::string>& doubts, const model::Model& model,
+                                                    const std::vector<recording::Recording>& recordings,
+                                                    const std::vector<recording::Reference>& references,
+                                                    model::Adaptation how) {
+  try {
+    return calibration::recalibrate(model, recordings, references, std::move(how));
+  } catch (const calibration::CalibrationError& error) {
+    throw calibration::CalibrationError(calibration::with_doubts(error.what(), doubts));
+  }
+}
+
 }  // namespace
 
 calibration::RecalibratedValve recalibrated(const model::Model& model, const MachineFiles& from,
@@ -79,7 +106,11 @@ calibration::RecalibratedValve recalibrated(const model::Model& model, const Mac
   const std::vector<recording::Reference> references = recording::read_references(from.references);
   const std::vector<recording::Recording> recordings = recordings_of(from, model);
   refuse_used_again(model, from.recordings);
-  calibration::RecalibratedValve out = calibration::recalibrate(model, recordings, references, std::move(how));
+  const std::vector<std::string> doubts = doubts_about(recordings, model);
+  calibration::RecalibratedValve out = recalibrated_despite(doubts, model, recordings, references, std::move(how));
+  out.doubts.insert(out.doubts.begin(), doubts.begin(), doubts.end());
+  std::vector<std::string>& reasons = out.model.provenance.adaptations.back().reasons;
+  reasons.insert(reasons.end(), doubts.begin(), doubts.end());
   for (const recording::Recording& recording : recordings) {
     out.model.provenance.inputs.push_back({std::string(model::adaptation_protocol), recording.file.filename().string(),
                                            model::sha256_of_file(recording.file), recording.size(),

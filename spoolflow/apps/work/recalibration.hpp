@@ -15,8 +15,9 @@ struct MachineFiles {
   std::filesystem::path references;  ///< tables [[reference]]
 };
 
-/// calibration::recalibrate() from those files, which stand among the inputs of the model's provenance afterwards.
-/// Throws what it throws, and std::invalid_argument for a recording that is too short.
+/// calibration::recalibrate() from those files, which stand among the inputs of the model's provenance afterwards. What
+/// physics says against them is among its doubts, the last reasons of the log, and behind a refusal. Throws what it
+/// throws, and std::invalid_argument for a recording that is too short.
 [[nodiscard]] calibration::RecalibratedValve recalibrated(const model::Model& model, const MachineFiles& from,
                                                           model::Adaptation how);
 

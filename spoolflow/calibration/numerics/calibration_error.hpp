@@ -1,6 +1,7 @@
 #pragma once
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace spoolflow::calibration {
 
@@ -9,5 +10,12 @@ namespace spoolflow::calibration {
 struct CalibrationError : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
+
+/// A refusal, and what speaks against the recordings that led to it.
+[[nodiscard]] inline std::string with_doubts(std::string refusal, const std::vector<std::string>& doubts) {
+  for (const std::string& doubt : doubts)
+    refusal += (&doubt == &doubts.front() ? "; likely the recordings are wrong: " : "; ") + doubt;
+  return refusal;
+}
 
 }  // namespace spoolflow::calibration

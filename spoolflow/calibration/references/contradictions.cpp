@@ -70,10 +70,14 @@ void require_no_leak(const MachineEvidence& evidence, const WearView& view, std:
   if (leak.gain < contradiction_evidence || !(leak.leak_m3_per_s > reference.leakage_uncertainty_m3_per_s)) return;
   throw CalibrationError(fmt::format(
       "{}: {} is refused: slow intervals miss {:.2g} +- {:.2g} L/min beside fast ones, where {:.2g} L/min was stated; "
-      "likely the seal leaks; mend it, or state its leakage",
+      "likely {}",
       reference.place, reference.name, units::L_per_min_from_m3_per_s(leak.leak_m3_per_s),
       units::L_per_min_from_m3_per_s(2 * leak.deviation_m3_per_s),
-      units::L_per_min_from_m3_per_s(reference.leakage_uncertainty_m3_per_s)));
+      units::L_per_min_from_m3_per_s(reference.leakage_uncertainty_m3_per_s),
+      reference.kind == recording::ReferenceKind::stroke ? "the seal leaks; mend it, or state its leakage"
+      : reference.kind == recording::ReferenceKind::pump ? "the pump leaks more; state its leakage"
+                                                         : "the meter's zero is off, or it cuts off low flow; read it "
+                                                           "with the valve closed"));
 }
 
 double deviation_of(const MachineEvidence& evidence, const OilLevel& level, std::size_t r) {
@@ -134,10 +138,15 @@ std::vector<std::string> require_agreement(const MachineEvidence& evidence, cons
 
 void require_no_less(const MachineEvidence& evidence, const Change& edge) {
   if (!(edge.value < 0) || edge.evidence < contradiction_evidence) return;
+  const bool only_meters = std::ranges::all_of(evidence.references, [](const recording::Reference& reference) {
+    return reference.kind == recording::ReferenceKind::meter || reference.kind == recording::ReferenceKind::closed;
+  });
   throw CalibrationError(
       fmt::format("{} refused: so little oil passed that the edges would be {:.1f} % narrower, and wear widens them; "
-                  "likely a seal leaks, another consumer is open, or the stated area or displacement is too small",
-                  names_of(evidence), percent * (1 - std::exp(edge.value))));
+                  "likely {}the stated {} is too small",
+                  names_of(evidence), percent * (1 - std::exp(edge.value)),
+                  only_meters ? "the meter's range ends, or " : "a seal leaks, another consumer is open, or ",
+                  stated_by(evidence)));
 }
 
 void require_no_misstated(const MachineEvidence& evidence, const EdgeChange& edge) {

@@ -142,9 +142,7 @@ void add_doubts(std::vector<std::string>& to, const model::Model& type, const re
   const bool of_one = type.whole() && direction != through_centre;
   const std::vector<plausibility::KnownValve> known =
       plausibility::known_valve(of_one ? model::of_direction(type, direction) : type);
-  plausibility::RunMeans means;
-  means.take({run.columns, run.size()});
-  for (plausibility::Finding& finding : plausibility::run_findings(known, means, run.file))
+  for (plausibility::Finding& finding : plausibility::run_findings(known, plausibility::RunMeans(run), run.file))
     to.push_back(std::move(finding.text));
 }
 
@@ -163,13 +161,9 @@ CalibratedUnit unit_despite(const std::vector<std::string>& doubts, const model:
   try {
     return unit_of_type(type, type_file, unit);
   } catch (const ForeignUnit& foreign) {
-    if (doubts.empty()) throw;
-    throw ForeignUnit(fmt::format("{}; likely the recordings are wrong: {}", foreign.what(), fmt::join(doubts, "; ")),
-                      foreign.directions);
+    throw ForeignUnit(with_doubts(foreign.what(), doubts), foreign.directions);
   } catch (const CalibrationError& error) {
-    if (doubts.empty()) throw;
-    throw CalibrationError(
-        fmt::format("{}; likely the recordings are wrong: {}", error.what(), fmt::join(doubts, "; ")));
+    throw CalibrationError(with_doubts(error.what(), doubts));
   }
 }
 

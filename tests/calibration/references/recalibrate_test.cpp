@@ -143,7 +143,9 @@ TEST(Recalibrate, GoesBackToAnyEarlierState) {
 TEST(Recalibrate, RefusesLessOilThanForcesSayForEdgesOnlyWiden) {
   std::vector<recording::Recording> recordings = fresh_strokes();
   scale_meter(recordings, 0.9);
-  EXPECT_THAT(refusal(recordings, {meter()}), HasSubstr("narrower"));
+  EXPECT_THAT(
+      refusal(recordings, {meter()}),
+      HasSubstr("narrower, and wear widens them; likely the meter's range ends, or the stated gain is too small"));
 }
 
 TEST(Recalibrate, RefusesMoreOilThanEdgesWearUnlessAnotherReferenceSaysTheSame) {
