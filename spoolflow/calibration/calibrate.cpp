@@ -14,6 +14,7 @@
 #include "spoolflow/calibration/known_quantities.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/observer.hpp"
+#include "spoolflow/calibration/unpressurised_strokes.hpp"
 #include "spoolflow/plausibility/campaign_findings.hpp"
 #include "spoolflow/plausibility/channel_findings.hpp"
 #include "spoolflow/plausibility/run_findings.hpp"
@@ -161,7 +162,11 @@ std::vector<std::string> flow_bench_contradictions(const ReadCampaign& recording
   std::vector<std::string> out;
   for (const std::string& direction : recordings.directions()) {
     const FlowBenchRecordings of = recordings.on_flow_bench(direction);
-    if (of.metering.empty()) continue;
+    if (of.metering.empty() && !campaign.of(recording::Protocol::spring).empty()) continue;  // strokes are left aside
+    for (const recording::Recording* strokes : of.unpressurised) {
+      std::string why = not_unpressurised(*strokes, campaign.valve.rated_flow_m3_per_s, campaign.valve.stroke_m);
+      if (!why.empty()) out.push_back(std::move(why));
+    }
     for (std::string& each : contradictions_of(of, {campaign.valve.rated_flow_m3_per_s, campaign.valve.stroke_m}))
       out.push_back(std::move(each));
   }

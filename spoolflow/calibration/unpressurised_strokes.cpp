@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/numerics/median.hpp"
 #include "spoolflow/units/conversion.hpp"
 
@@ -44,30 +43,30 @@ Travel travel_of(const recording::Recording& recording) {
 
 }  // namespace
 
-void require_unpressurised_strokes(const recording::Recording& recording, double rated_flow_m3_per_s, double stroke_m) {
+std::string not_unpressurised(const recording::Recording& recording, double rated_flow_m3_per_s, double stroke_m) {
   const std::string file = recording.file.filename().string();
   const double pressure_Pa = median_of(recording, Channel::pressure_difference);
   if (std::abs(pressure_Pa) > unpressurised_Pa) {
-    throw CalibrationError(fmt::format(
+    return fmt::format(
         "{}: channel pressure_difference is {:.1f} bar in the middle, at most {:g} bar is without pressure; record the "
         "strokes with the pump off, or name the run protocol = \"operation\"",
-        file, units::bar_from_Pa(pressure_Pa), units::bar_from_Pa(unpressurised_Pa)));
+        file, units::bar_from_Pa(pressure_Pa), units::bar_from_Pa(unpressurised_Pa));
   }
   const double flow_m3_per_s = median_of(recording, Channel::flow_reference);
   if (std::abs(flow_m3_per_s) > unpressurised_flow_share * rated_flow_m3_per_s) {
-    throw CalibrationError(fmt::format(
+    return fmt::format(
         "{}: channel flow_reference is {:.2f} L/min in the middle, at most {:.2f} L/min is without pressure; record "
         "the strokes with the pump off, or name the run protocol = \"operation\"",
         file, units::L_per_min_from_m3_per_s(flow_m3_per_s),
-        units::L_per_min_from_m3_per_s(unpressurised_flow_share * rated_flow_m3_per_s)));
+        units::L_per_min_from_m3_per_s(unpressurised_flow_share * rated_flow_m3_per_s));
   }
   const Travel travel = travel_of(recording);
-  if (std::min(travel.opened_m, travel.closed_m) >= least_stroke_share * stroke_m) return;
-  throw CalibrationError(fmt::format(
+  if (std::min(travel.opened_m, travel.closed_m) >= least_stroke_share * stroke_m) return {};
+  return fmt::format(
       "{}: channel position opens by {:.2f} mm and closes by {:.2f} mm at most, and strokes need {:.2f} mm each way; "
       "record whole strokes, slowly both ways",
       file, units::mm_from_m(travel.opened_m), units::mm_from_m(travel.closed_m),
-      units::mm_from_m(least_stroke_share * stroke_m)));
+      units::mm_from_m(least_stroke_share * stroke_m));
 }
 
 }  // namespace spoolflow::calibration

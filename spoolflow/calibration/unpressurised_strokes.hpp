@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+
 #include "spoolflow/recording/recording.hpp"
 
 namespace spoolflow::calibration {
@@ -9,9 +11,9 @@ inline constexpr double unpressurised_flow_share = 0.01;
 /// The spool went to and fro by at least this share of the stroke.
 inline constexpr double least_stroke_share = 0.5;
 
-/// Throws CalibrationError, naming file, channel and value, where a recording cannot be of `unpressurised_strokes`: a
-/// pressure difference or a flow stands in it, the current never flows, or the spool does not travel half the stroke
-/// both ways.
-void require_unpressurised_strokes(const recording::Recording& recording, double rated_flow_m3_per_s, double stroke_m);
+/// Why a recording cannot be of `unpressurised_strokes`, with file, channel and value: a pressure difference or a flow
+/// stands in it, or the spool does not travel half the stroke both ways. Empty: it can.
+[[nodiscard]] std::string not_unpressurised(const recording::Recording& recording, double rated_flow_m3_per_s,
+                                            double stroke_m);
 
 }  // namespace spoolflow::calibration

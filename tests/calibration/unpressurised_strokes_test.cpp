@@ -6,8 +6,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "spoolflow/calibration/numerics/calibration_error.hpp"
-
 namespace spoolflow::calibration {
 namespace {
 
@@ -32,12 +30,7 @@ recording::Recording strokes(double share, double pressure_Pa, double flow_m3_pe
 }
 
 std::string refusal(const recording::Recording& recording) {
-  try {
-    require_unpressurised_strokes(recording, rated_m3_per_s, whole_stroke_m);
-  } catch (const CalibrationError& error) {
-    return error.what();
-  }
-  return {};
+  return not_unpressurised(recording, rated_m3_per_s, whole_stroke_m);
 }
 
 TEST(UnpressurisedStrokes, ServeWithAndWithoutInstrumentsThatReadZero) {

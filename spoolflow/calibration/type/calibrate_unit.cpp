@@ -16,6 +16,7 @@
 #include "spoolflow/calibration/type/unit_agreement.hpp"
 #include "spoolflow/calibration/type/unit_parameters.hpp"
 #include "spoolflow/calibration/unpressurised_strokes.hpp"
+#include "spoolflow/plausibility/channel_findings.hpp"
 #include "spoolflow/plausibility/known_valve.hpp"
 #include "spoolflow/plausibility/run_findings.hpp"
 #include "spoolflow/plausibility/run_means.hpp"
@@ -250,18 +251,24 @@ CalibratedUnit calibrate_unit(const model::Model& type, const std::string& type_
   provenance.quantities = type.provenance.quantities;
   std::deque<recording::Recording> recordings;
   std::vector<UnitRun> runs;
+  std::vector<const recording::Recording*> strokes;
   for (std::size_t k = 0; k < unit.recordings.size(); ++k) {
     const recording::CampaignRecording& entry = unit.recordings[k];
     progress(fmt::format("reading {}", entry.file.filename().string()), 0);
     const recording::Recording& read = recordings.emplace_back(recording::read_recording(entry.file, options[k]));
-    if (entry.protocol == recording::Protocol::unpressurised_strokes)
-      require_unpressurised_strokes(read, type.valve.rated_flow_m3_per_s, type.valve.stroke_m);
+    if (entry.protocol == recording::Protocol::unpressurised_strokes) {
+      const std::string why = not_unpressurised(read, type.valve.rated_flow_m3_per_s, type.valve.stroke_m);
+      if (!why.empty()) throw CalibrationError(why);
+      strokes.push_back(&read);
+    }
     provenance.inputs.push_back({std::string(recording::name(entry.protocol)), entry.file.filename().string(),
                                  model::sha256_of_file(entry.file), read.size(), read.resampled});
     const std::string direction = type.whole() ? direction_of(entry, read) : "";
     if (entry.protocol == recording::Protocol::operation) add_doubts(provenance.doubts, type, read, direction);
     runs.push_back({&read, entry.protocol, direction});
   }
+  for (plausibility::Finding& finding : plausibility::channel_findings(strokes))
+    provenance.doubts.push_back(std::move(finding.text));
   constexpr double reading_share = 0.3;
   progress("the unit against its type", reading_share);
   add_disagreements(provenance.doubts, type, type_file, runs);
