@@ -168,14 +168,33 @@ CalibratedUnit unit_despite(const std::vector<std::string>& doubts, const model:
   }
 }
 
-/// The direction of a recording of a unit, or `through_centre`, where the type is of a whole valve.
-std::string direction_of(const recording::CampaignRecording& entry, const recording::Recording& read) {
+/// The direction of a recording of a unit, or `through_centre`, where the type is of a whole valve; else empty.
+std::string direction_of(const recording::CampaignRecording& entry, const recording::Recording& read,
+                         const model::Model& type) {
+  if (!type.whole()) {
+    if (entry.direction == type.valve.direction) return {};
+    throw CalibrationError(
+        fmt::format("{}: direction = \"{}\", and the type is of \"{}\" alone; leave the recording "
+                    "out, or give the whole valve's type",
+                    entry.place, entry.direction, type.valve.direction));
+  }
   if (recording::has_both_coils(read)) return through_centre;
   if (entry.direction != "both") return entry.direction;
   throw CalibrationError(fmt::format(
       "{}: {} has the current of one coil, and the type is of a whole valve; give direction = \"b\" (flow P "
       "to B) or \"a\" (P to A) with it, or the currents of both coils, current_a and current_b",
       entry.place, read.file.filename().string()));
+}
+
+/// The same strokes twice are no more evidence than once.
+void require_new(const recording::CampaignRecording& entry, const std::string& sha256,
+                 const std::vector<model::InputFile>& before) {
+  const auto same = std::ranges::find(before, sha256, &model::InputFile::sha256);
+  if (same == before.end()) return;
+  throw CalibrationError(
+      fmt::format("{}: {} holds the same as {}, which counts once; name the recording that belongs there, or take it "
+                  "out",
+                  entry.place, entry.file.filename().string(), same->file));
 }
 
 /// As the unit's own position sensor shows it.
@@ -255,6 +274,7 @@ CalibratedUnit calibrate_unit(const model::Model& type, const std::string& type_
   for (std::size_t k = 0; k < unit.recordings.size(); ++k) {
     const recording::CampaignRecording& entry = unit.recordings[k];
     progress(fmt::format("reading {}", entry.file.filename().string()), 0);
+    require_new(entry, model::sha256_of_file(entry.file), provenance.inputs);
     const recording::Recording& read = recordings.emplace_back(recording::read_recording(entry.file, options[k]));
     if (entry.protocol == recording::Protocol::unpressurised_strokes) {
       const std::string why = not_unpressurised(read, type.valve.rated_flow_m3_per_s, type.valve.stroke_m);
@@ -263,7 +283,7 @@ CalibratedUnit calibrate_unit(const model::Model& type, const std::string& type_
     }
     provenance.inputs.push_back({std::string(recording::name(entry.protocol)), entry.file.filename().string(),
                                  model::sha256_of_file(entry.file), read.size(), read.resampled});
-    const std::string direction = type.whole() ? direction_of(entry, read) : "";
+    const std::string direction = direction_of(entry, read, type);
     if (entry.protocol == recording::Protocol::operation) add_doubts(provenance.doubts, type, read, direction);
     runs.push_back({&read, entry.protocol, direction});
   }

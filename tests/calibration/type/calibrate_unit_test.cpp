@@ -176,6 +176,20 @@ TEST(CalibrateUnit, TheUnitsOwnMachineWidensItsBand) {
   EXPECT_GT(machine_of(machine).force_N, machine_of(bench).force_N);
 }
 
+TEST(CalibrateUnit, OneRecordingTwiceOrOfTheOtherDirectionIsRefusedWithItsLine) {
+  const std::string again = "[[recording]]\nprotocol = \"unpressurised_strokes\"\nfile = \"dry.csv\"\n";
+  const auto refusal = [](const std::string& behind) -> std::string {
+    try {
+      (void)unit_with("", behind);
+      return "none";
+    } catch (const CalibrationError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_THAT(refusal(again), HasSubstr("unit.toml, line 4: dry.csv holds the same as dry.csv, which counts once"));
+  EXPECT_THAT(refusal("direction = \"a\"\n"), HasSubstr("direction = \"a\", and the type is of \"b\" alone"));
+}
+
 /// What the type calls a unit that hangs for a third of a second at each place, with that logarithm of its ageing time.
 UnitParameter found_ageing(double logarithm) {
   Deviations deviations{};
