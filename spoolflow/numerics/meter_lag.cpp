@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <vector>
 
 namespace spoolflow::numerics {
@@ -113,21 +114,25 @@ std::optional<MeterLag> least_unexplained(Unexplained&& unexplained) {
     best = meter;
     return true;
   };
-  for (const double dead_time_s : {0.0, 0.01, 0.03})
-    for (const double lag_s : {0.005, 0.01, 0.02, 0.04, 0.08, 0.15, 0.3}) try_lag({dead_time_s, lag_s});
-  double dead_step_s = 0.008;
-  double factor = 1.4;
-  for (int round = 0; round < 6; ++round) {
-    while (try_lag({best.dead_time_s, std::min(best.lag_s * factor, 0.5)}) ||
-           try_lag({best.dead_time_s, best.lag_s / factor})) {
+  const auto search = [&](std::initializer_list<double> dead_times_s) {
+    for (const double dead_time_s : dead_times_s)
+      for (const double lag_s : {0.005, 0.01, 0.02, 0.04, 0.08, 0.15, 0.3}) try_lag({dead_time_s, lag_s});
+    double dead_step_s = 0.008;
+    double factor = 1.4;
+    for (int round = 0; round < 6; ++round) {
+      while (try_lag({best.dead_time_s, std::min(best.lag_s * factor, 0.5)}) ||
+             try_lag({best.dead_time_s, best.lag_s / factor})) {
+      }
+      while (try_lag({std::min(best.dead_time_s + dead_step_s, 0.5), best.lag_s}) ||
+             try_lag({std::max(best.dead_time_s - dead_step_s, 0.0), best.lag_s})) {
+      }
+      factor = 1 + 0.5 * (factor - 1);
+      dead_step_s *= 0.5;
     }
-    while (try_lag({std::min(best.dead_time_s + dead_step_s, 0.1), best.lag_s}) ||
-           try_lag({std::max(best.dead_time_s - dead_step_s, 0.0), best.lag_s})) {
-    }
-    factor = 1 + 0.5 * (factor - 1);
-    dead_step_s *= 0.5;
-  }
-  if (least < most_unexplained_share * unexplained.of_reference()) return best;
+    return least < most_unexplained_share * unexplained.of_reference();
+  };
+  // A meter itself, or one behind a control or a bus.
+  if (search({0.0, 0.01, 0.03}) || search({0.1, 0.2, 0.3, 0.4, 0.5})) return best;
   return std::nullopt;
 }
 

@@ -59,7 +59,7 @@ void apply_lag(std::span<const double> time_s, std::span<Number> values, const M
 
 /// The meter that shows `reference` where the flow was `flow`, from samples at the same times. What it is judged by are
 /// changes over a tenth of a second, by their size: an offset, slow errors and a few large ones say nothing of a lag.
-/// Dead time up to 0.1 s, lag up to 0.5 s. Nothing where fewer than `least_samples` samples have both, the flow never
+/// Dead time and lag up to 0.5 s. Nothing where fewer than `least_samples` samples have both, the flow never
 /// changes, or a quarter of the reference's changes stays unexplained: such a lag would hide the flow's own errors.
 std::optional<MeterLag> find_meter_lag(std::span<const double> time_s, std::span<const double> flow,
                                        std::span<const double> reference, std::size_t least_samples = 1000);

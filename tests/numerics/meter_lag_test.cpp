@@ -52,6 +52,19 @@ TEST(MeterLag, IsFoundFromWhatTheMeterShowed) {
   }
 }
 
+/// Dead time and lag look alike but for what the meter smooths: together they are found better than each.
+TEST(MeterLag, OfAMeterBehindABusIsFoundUpToHalfASecondOfDeadTime) {
+  const Course course = numerics::course();
+  for (const MeterLag& meter : {MeterLag{0.2, 0.03}, MeterLag{0.25, 0.03}, MeterLag{0.45, 0.1}}) {
+    std::vector<double> shown = course.flow;
+    apply_lag<double>(course.time_s, shown, meter);
+    const std::optional<MeterLag> found = find_meter_lag(course.time_s, course.flow, shown);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->lag_s + found->dead_time_s, meter.lag_s + meter.dead_time_s, 0.005);
+    EXPECT_NEAR(found->dead_time_s, meter.dead_time_s, 0.02);
+  }
+}
+
 TEST(MeterLag, AMissingSampleShowsWhatWasShownBefore) {
   std::vector<double> time_s{0, 0.01, 0.02, 0.03};
   std::vector<double> flow{1, 1, std::nan(""), 1};
