@@ -123,10 +123,11 @@ void read_stroke(const TomlTable& table, Reference& out) {
                                      table.place("marks"), end_names[static_cast<std::size_t>(out.ends)]));
   }
   out.area_m2 = number_within(table, "area_cm2", {0.1, 1e4, "the area that the oil fills in cm2"}) * m2_per_cm2;
-  out.length_m = number_within(table, "length_mm", {1, 2e4, "the way from end to end in mm"}) * 1e-3;
+  out.length_m = number_within(table, "length_mm", {5, 2e4, "the way from end to end in mm"}) * 1e-3;
   out.share_uncertainty = number_within(table, "area_uncertainty_percent", any_percent, 0.5) * percent;
   out.length_uncertainty_m =
-      number_within(table, "length_uncertainty_mm", {0, 1e3, "the half width at 95 % in mm"}, 1) * 1e-3;
+      number_within(table, "length_uncertainty_mm", {0, 0.2e3 * out.length_m, "the half width at 95 % in mm"}, 1) *
+      1e-3;
   out.leakage_uncertainty_m3_per_s =
       units::m3_per_s_from_L_per_min(number_within(table, "seal_leakage_L_min", any_leakage, 0.1));
   constexpr double bulk_modulus_Pa = 1.4e9;  // oil in hoses, with its air

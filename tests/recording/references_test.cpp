@@ -67,6 +67,11 @@ TEST(References, WhatIsWrongIsNamedWithItsLineAndWhatIsAllowed) {
   EXPECT_THAT(refused_reference(stroke + "length_mm = 650\n", "begin_s,end_s\n1,2\n"), HasSubstr("area_cm2"));
   EXPECT_THAT(refused_reference(stroke + "area_cm2 = -40\nlength_mm = 650\n", "begin_s,end_s\n1,2\n"),
               HasSubstr("line 6"));
+  EXPECT_THAT(refused_reference(stroke + "area_cm2 = 40\nlength_mm = 0.65\n", "begin_s,end_s\n1,2\n"),
+              HasSubstr("length_mm = 0.65 is out of range"));
+  EXPECT_THAT(refused_reference(stroke + "area_cm2 = 40\nlength_mm = 650\nlength_uncertainty_mm = 131\n",
+                                "begin_s,end_s\n1,2\n"),
+              HasSubstr("give the half width at 95 % in mm, 0 to 130"));
   EXPECT_THAT(refused_reference(stroke + "area_cm2 = 40\nlength_mm = 650\n", "begin_s,end_s\n1,3\n2,4\n"),
               HasSubstr("line 3"));
   EXPECT_THAT(refused_reference(stroke + "area_cm2 = 40\nlength_mm = 650\n", "begin_s,end_s\n1,two\n"),
