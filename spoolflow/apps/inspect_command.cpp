@@ -119,8 +119,7 @@ void add_inspect_command(CLI::App& program) {
   std::vector<std::string> protocols;
   for (const recording::Protocol protocol : recording::all_protocols) protocols.emplace_back(recording::name(protocol));
   command
-      ->add_option("--protocol", arguments->protocol,
-                   "whether the file serves this test of a campaign; status 1 if not")
+      ->add_option("--protocol", arguments->protocol, "whether the file has the channels of this test; status 1 if not")
       ->option_text("NAME")
       ->check(CLI::IsMember(protocols));
   command->add_flag("--json", arguments->json, "print JSON instead of text");

@@ -101,7 +101,6 @@ void add_recalibrate_command(CLI::App& program) {
   command->add_option("--references", arguments->references, "what the machine knows of its oil: tables [[reference]]")
       ->type_name("REF.toml");
   command->add_option("--back-to", arguments->back_to, "earlier state of the model, 0 for as calibrated")
-      ->check(CLI::NonNegativeNumber)
       ->type_name("STATE");
   command->add_option("-o,--output", arguments->output, "model file to write, - for standard output")
       ->type_name("MODEL2.json")

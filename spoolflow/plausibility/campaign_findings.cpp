@@ -11,6 +11,7 @@
 #include "spoolflow/plausibility/block_means.hpp"
 #include "spoolflow/plausibility/recording_error.hpp"
 #include "spoolflow/plausibility/reference_shift.hpp"
+#include "spoolflow/plausibility/relation.hpp"
 #include "spoolflow/plausibility/run_relations.hpp"
 #include "spoolflow/plausibility/valve_curves.hpp"
 #include "spoolflow/plausibility/zero_findings.hpp"
@@ -230,9 +231,10 @@ void add_dead_channels(std::vector<Finding>& to, const Trial& trial) {
       if (!maps && (channel == Channel::pressure_difference || channel == Channel::flow)) continue;
       const std::optional<double> value = standing_value(piece.means.column(channel));
       if (!value) continue;
-      to.push_back({true, fmt::format("{}: {} stands still at {:.3g} (SI) all along: its wire, its column in the "
+      to.push_back({true, fmt::format("{}: {} stands still at {} all along: its wire, its column in the "
                                       "channel map or its unit is wrong",
-                                      piece.means.file.filename().string(), recording::name(channel), *value)});
+                                      piece.means.file.filename().string(), recording::name(channel),
+                                      shown_value(channel, *value))});
     }
   }
 }

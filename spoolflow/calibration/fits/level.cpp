@@ -65,9 +65,9 @@ void require_both_directions(const Level& level, const std::string& what) {
   for (const Direction direction : {Direction::opening, Direction::closing}) {
     if (std::none_of(level.sweeps.begin(), level.sweeps.end(),
                      [&](const Sweep& sweep) { return sweep.direction == direction; })) {
-      throw CalibrationError(
-          fmt::format("{}: there is no {} stroke, and averaging needs both directions; record it to and fro", what,
-                      direction == Direction::opening ? "opening" : "closing"));
+      throw CalibrationError(fmt::format(
+          "{}: there is no {} stroke, and averaging needs both directions; hold it over whole strokes to and fro", what,
+          direction == Direction::opening ? "opening" : "closing"));
     }
   }
 }

@@ -94,14 +94,16 @@ std::string refusal_of(const UnitCalibration& unit, const std::string& file, con
       file, type, unit.misfit, largest_misfit, worst_of(unit.parameters));
 }
 
-void require_evidence(const UnitEvidence& evidence, const std::string& file) {
+void require_evidence(const UnitEvidence& evidence, const std::string& file, const model::Model& type) {
   if (evidence.any(EvidenceOf::force) || evidence.any(EvidenceOf::unpressurised_force) ||
       evidence.any(EvidenceOf::breakaway) || evidence.any(EvidenceOf::flow))
     return;
   throw CalibrationError(fmt::format(
       "{}: the recordings show no forces and no flow of the unit; record unpressurised_strokes, or operation with "
-      "pressure_difference or flow_reference, in which the spool moves over its stroke with the dither off",
-      file));
+      "pressure_difference or flow_reference, in which the spool moves over its stroke with the dither off, under "
+      "{:.0f} "
+      "bar at most, up to which the type was calibrated",
+      file, 1e-5 * type.observer->parameters.edge.highest_pressure_difference_Pa()));
 }
 
 Deviations tolerances_of(const model::Model& type) {
@@ -114,7 +116,7 @@ Deviations tolerances_of(const model::Model& type) {
 UnitCalibration of_direction(const model::Model& type, const std::string& type_file, const UnitRecordings& unit) {
   const KnownDeviations prior = known_of_type(type, type_file);
   const UnitEvidence evidence(type, unit.runs);
-  require_evidence(evidence, unit.file);
+  require_evidence(evidence, unit.file, type);
   const UnitFit fit = most_likely_unit(evidence, prior);
   const Deviations tolerances = tolerances_of(type);
   UnitCalibration out{type, compared(fit, prior, tolerances), 0, fit.misfit, fit.known, {}};
