@@ -145,7 +145,7 @@ SteadyLines dithered_behind(double position_Hz, double current_Hz, double noise_
 
 TEST(LowPass, OfTheRecorderIsNamedInThePositionOrInTheCurrentAlone) {
   constexpr double open = 1e9;
-  EXPECT_THAT(low_pass_finding(dithered_behind(open, open), {noise_m}), IsEmpty());
+  EXPECT_THAT(low_pass_finding(dithered_behind(open, open), noise_m), IsEmpty());
   for (const double corner_Hz : {20.0, 50.0})
     EXPECT_THAT(low_pass_finding(dithered_behind(corner_Hz, corner_Hz), noise_m),
                 AllOf(HasSubstr("position holds no noise beyond 150 Hz"), HasSubstr("dither"), HasSubstr("low-pass")));
@@ -153,8 +153,8 @@ TEST(LowPass, OfTheRecorderIsNamedInThePositionOrInTheCurrentAlone) {
 }
 
 TEST(LowPass, IsNoQuieterSensorNorAStrokingValve) {
-  EXPECT_THAT(low_pass_finding(dithered_behind(1e9, 1e9, 0.05), {noise_m}), IsEmpty());
-  EXPECT_THAT(low_pass_finding(run(1000, no_line, no_line), {noise_m}), IsEmpty());
+  EXPECT_THAT(low_pass_finding(dithered_behind(1e9, 1e9, 0.05), noise_m), IsEmpty());
+  EXPECT_THAT(low_pass_finding(run(1000, no_line, no_line), noise_m), IsEmpty());
 }
 
 TEST(SteadyLines, OfARunOfAnHourAreThoseOfAllItsTime) {
