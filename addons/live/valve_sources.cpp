@@ -64,7 +64,7 @@ ValveSources::ValveSources(const SiteSettings& site, const Valves& valves) : sit
 }
 
 ValveSources::~ValveSources() {
-  stop();
+  end_threads();
 }
 
 void ValveSources::resume(std::size_t k, const SourcePosition& after, const IntakeCounters& before) {
@@ -104,22 +104,26 @@ void ValveSources::start_source(std::size_t k) {
 }
 
 void ValveSources::stop() {
-  // Sources first, so that nothing new comes while the last is worked on.
+  end_threads();
+  for (const auto& place : places_) workers_.front()->work(*place);
+}
+
+/// Sources first, so that nothing new comes while the last is worked on.
+void ValveSources::end_threads() {
+  const auto ask_to_stop = [](auto* source) {
+    if (source) (*source)->ask_to_stop();
+  };
   for (const auto& place : places_) {
-    std::visit(
-        [](auto& source) {
-          if constexpr (requires { source->ask_to_stop(); }) {
-            if (source) source->ask_to_stop();
-          }
-        },
-        place->source);
+    ask_to_stop(std::get_if<std::unique_ptr<TcpSource>>(&place->source));
+    ask_to_stop(std::get_if<std::unique_ptr<PipeSource>>(&place->source));
+    ask_to_stop(std::get_if<std::unique_ptr<ReplaySource>>(&place->source));
+    ask_to_stop(std::get_if<std::unique_ptr<RigSource>>(&place->source));
   }
-  for (const auto& place : places_) place->source = std::monostate{};
+  for (const auto& place : places_) place->source = {};
   udp_.reset();
   if (messages_) messages_->ask_to_stop();
   messages_.reset();
   for (const auto& worker : workers_) worker->thread = {};
-  for (const auto& place : places_) workers_.front()->work(*place);
 }
 
 void ValveSources::finish_ended() {

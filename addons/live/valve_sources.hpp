@@ -33,6 +33,7 @@ class ValveSources {
  public:
   /// Both outlive it.
   ValveSources(const SiteSettings& site, const Valves& valves);
+  /// Ends sources and threads; what had come stays without work.
   ~ValveSources();
 
   /// Before the start: the source of valve `k` goes on behind that sample, its counts from those.
@@ -71,6 +72,7 @@ class ValveSources {
     bool finished = false;
   };
   void start_source(std::size_t k);
+  void end_threads();
   [[nodiscard]] static bool ended(const Place& place);
 
   const SiteSettings& site_;

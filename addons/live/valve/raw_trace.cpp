@@ -71,7 +71,7 @@ void RawTrace::add(const estimation::TimedSample& sample) {
   }
   Piece& piece = pieces_.back();
   const double since_s = std::max(sample.time_s - piece.begin_s, 0.0);
-  piece.since_begin.push_back(static_cast<std::uint32_t>(since_s / raw_time_step_s + 0.5));
+  piece.since_begin.push_back(static_cast<std::uint32_t>(std::lround(since_s / raw_time_step_s)));
   const std::array<double, 10> values{
       sample.current_A,   sample.voltage_V,  sample.position_m, sample.oil_temperature_K, sample.current_a_A,
       sample.voltage_a_V, sample.ports.p_Pa, sample.ports.a_Pa, sample.ports.b_Pa,        sample.ports.t_Pa};
