@@ -12,12 +12,19 @@ passed=$build/tidy
 mkdir -p "$passed"
 mark=$passed/$(echo "$folder" | tr / .)
 
-# what all the folder's compile commands define and include
-commands=$(grep -F '"command":' "$build/compile_commands.json" | grep -e "-o $folder/CMakeFiles/" | tr ' ' '\n' | tr -d '",' || true)
+ls "$folder"/*.cpp >/dev/null 2>&1 || exit 0 # headers only: seen with those who include them
+
+# what all the folder's compile commands define and include, or where its files are joined to others', those of the folder above
+compiled=$folder
+commands() { grep -F '"command":' "$build/compile_commands.json" | grep -e "-o $compiled/CMakeFiles/"; }
+while ! commands >"$mark.commands"; do
+  [ "$compiled" != . ] || { echo "ci/tidy.sh: $build/compile_commands.json compiles no file of $folder: configure it with its add-on" >&2; exit 1; }
+  compiled=$(dirname "$compiled")
+done
+commands=$(tr ' ' '\n' <"$mark.commands" | tr -d '",')
 flags=$(printf "%s\n" "$commands" | grep -E '^(-D|-I|-std|/)' | grep -v -e '\.c[px][px]$' -e 'c++$' -e 'ccache$' |
         sed -e 's,^/,-isystem/,' -e 's,\\\\\\,",g' | sort -u || true)
-[ -n "$flags" ] || exit 0 # headers only: seen with those who include them
-key=$( (clang-tidy --version; cat .clang-tidy; echo "$flags"; cat "$folder"/*.cpp; find spoolflow -name '*.hpp' | sort | xargs cat) | sha256sum)
+key=$( (clang-tidy --version; cat .clang-tidy; echo "$flags"; cat "$folder"/*.cpp; find spoolflow addons -name '*.hpp' | sort | xargs cat) | sha256sum)
 if [ "$(cat "$mark" 2>/dev/null)" = "$key" ]; then exit 0; fi
 
 # tidy SOURCE
@@ -28,7 +35,11 @@ for source in "$folder"/*.cpp; do echo "#include \"$root/$source\""; done >"$mar
 failed=0
 if ! tidy "$mark.all.cpp"; then
   if grep -q 'clang-diagnostic-error' "$mark.found"; then
-    for source in $(printf "%s\n" "$commands" | grep -e "^$root/.*\.c[px][px]$"); do tidy "$source" || { report; failed=1; }; done
+    for source in $(printf "%s\n" "$commands" | grep -e "^$root/.*\.c[px][px]$"); do
+      if [ "$(dirname "$source")" = "$root/$folder" ] || grep -q "\"$root/$folder/[^/]*\.cpp\"" "$source"; then
+        tidy "$source" || { report; failed=1; }
+      fi
+    done
   else
     report
     failed=1
