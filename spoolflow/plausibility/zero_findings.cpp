@@ -154,7 +154,7 @@ std::vector<Finding> run_zero_findings(Recording& run, std::span<const KnownValv
 
 std::optional<Finding> meter_zero_finding(const Recording& run, std::span<const KnownValve> valve) {
   if (!run.has(Channel::flow)) return std::nullopt;
-  const double closed_below_m = std::ranges::min(valve, {}, &KnownValve::closed_below_m).closed_below_m;
+  const double closed_below_m = std::ranges::min_element(valve, {}, &KnownValve::closed_below_m)->closed_below_m;
   const double largest = valve.front().hydraulics.largest_flow_m3_per_s;
   const std::vector<double> flows = flows_closed(longer_blocks(run), closed_below_m);
   if (flows.empty()) return std::nullopt;
