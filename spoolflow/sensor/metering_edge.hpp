@@ -79,6 +79,7 @@ struct MeteringEdge {
                                                            const Cell<T>& column, T pressure_difference,
                                                            EdgeFriction<T>& kept, bool looked_up) const {
     const VolumeCell<T> cell = volume_cell(layer, row, column, pressure_difference_Pa.per_spacing);
+    const T passes = conductance.at(cell).value;
     VolumePoint<T> force = flow_force_N.at(cell);
     T measured_Pa = pressure_difference;
     if (unlikely(row.index == edge_pressures - 2 && is_beyond(pressure_difference))) {
@@ -86,13 +87,14 @@ struct MeteringEdge {
       force.row_slope = force.value / measured_Pa;
       force.value *= pressure_difference / measured_Pa;
     }
-    if (unlikely(looked_up)) {
+    if (looked_up) {
       const VolumePoint<T> friction = friction_N.at(cell);
-      kept = {friction.value - friction.row_slope * measured_Pa, friction.row_slope};
+      // It is friction at any pressure difference: none is less than zero.
+      const T slope = larger(smaller(friction.row_slope, friction.value / measured_Pa), T(0));
+      kept = {friction.value - slope * measured_Pa, slope};
     }
     return {force.value, larger(force.row_slope, T(least_force_per_pressure_N_Pa)),
-            kept.without_pressure_N + kept.per_pressure_N_Pa * pressure_difference, kept.per_pressure_N_Pa,
-            conductance.at(cell).value};
+            kept.without_pressure_N + kept.per_pressure_N_Pa * pressure_difference, kept.per_pressure_N_Pa, passes};
   }
   [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(const Cell<T>& layer, const Cell<T>& row,
                                                            const Cell<T>& column, T pressure_difference) const {
