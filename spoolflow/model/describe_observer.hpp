@@ -142,7 +142,7 @@ void describe_edge(Edge& edge, Visitor& visitor) {
                  edge.friction_N);
   visitor.volume({.key = "conductance_m3_per_s_sqrt_Pa",
                   .unit = "m3/s/Pa(1/2)",
-                  .limits = {0, 1e-2},
+                  .limits = {-1e-3, 1e-2},
                   .meaning = "flow rate over the root of the pressure difference"},
                  edge.conductance);
 }

@@ -26,13 +26,16 @@ struct EdgePoint {
   bool temperature_inside = true;  ///< the same of the oil temperature
 };
 
-/// The spool's friction about where it was looked up, linear in the pressure difference: opening and oil temperature
-/// change it little in the few samples until it is looked up again.
+/// From what was measured at the highest pressure difference `measured_Pa` to a larger one: at a given opening the
+/// steady flow force is in proportion to it (paper (2) with the orifice equation), friction goes on linearly (paper
+/// section 2.1.3), and the conductance stays.
 template <class T>
-struct EdgeFriction {
-  T without_pressure_N{};
-  T per_pressure_N_Pa{};
-};
+SPOOLFLOW_INLINE constexpr void continue_beyond(VolumePoint<T>& flow_force, VolumePoint<T>& friction,
+                                                T pressure_difference_Pa, T measured_Pa) {
+  flow_force.row_slope = flow_force.value / measured_Pa;
+  flow_force.value *= pressure_difference_Pa / measured_Pa;
+  friction.value += at_least_zero(friction.row_slope) * (pressure_difference_Pa - measured_Pa);
+}
 
 /// Where an oil temperature lies between the layers of an edge.
 template <class T>
@@ -71,52 +74,29 @@ struct MeteringEdge {
     return out;
   }
 
-  /// In the cells that hold its oil temperature, pressure difference and position. Beyond what was measured the steady
-  /// flow force at a given opening is in proportion to the pressure difference (paper (2) with the orifice equation),
-  /// friction goes on linearly (paper section 2.1.3), and the conductance stays. Friction is that `kept` where it is
-  /// not `looked_up`.
-  [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(const Cell<T>& layer, const Cell<T>& row,
-                                                           const Cell<T>& column, T pressure_difference,
-                                                           EdgeFriction<T>& kept, bool looked_up) const {
-    const VolumeCell<T> cell = volume_cell(layer, row, column, pressure_difference_Pa.per_spacing);
-    const T passes = conductance.at(cell).value;
-    VolumePoint<T> force = flow_force_N.at(cell);
-    T measured_Pa = pressure_difference;
-    if (unlikely(row.index == edge_pressures - 2 && is_beyond(pressure_difference))) {
-      measured_Pa = highest_pressure_difference_Pa();
-      force.row_slope = force.value / measured_Pa;
-      force.value *= pressure_difference / measured_Pa;
-    }
-    if (looked_up) {
-      const VolumePoint<T> friction = friction_N.at(cell);
-      // It is friction at any pressure difference: none is less than zero.
-      const T slope = larger(smaller(friction.row_slope, friction.value / measured_Pa), T(0));
-      kept = {friction.value - slope * measured_Pa, slope};
-    }
-    return {force.value, larger(force.row_slope, T(least_force_per_pressure_N_Pa)),
-            kept.without_pressure_N + kept.per_pressure_N_Pa * pressure_difference, kept.per_pressure_N_Pa, passes};
-  }
+  /// In the cells that hold its oil temperature, pressure difference and position.
   [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(const Cell<T>& layer, const Cell<T>& row,
                                                            const Cell<T>& column, T pressure_difference) const {
-    EdgeFriction<T> friction;
-    return at(layer, row, column, pressure_difference, friction, true);
+    const VolumeCell<T> cell = volume_cell(layer, row, column, pressure_difference_Pa.per_spacing);
+    VolumePoint<T> force = flow_force_N.at(cell), friction = friction_N.at(cell);
+    if (unlikely(row.index == edge_pressures - 2 && is_beyond(pressure_difference)))
+      continue_beyond(force, friction, pressure_difference, highest_pressure_difference_Pa());
+    return {force.value, larger(force.row_slope, T(least_force_per_pressure_N_Pa)), friction.value, friction.row_slope,
+            conductance.at(cell).value};
   }
   /// The layer may be kept while the oil temperature stays. A bit that falls in its memory leads to no place outside of
   /// the tables. `outside()` is called where pressure difference or position lie outside of what was measured.
   template <class Outside>
   [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(const Cell<T>& layer, T pressure_difference, T position,
-                                                           EdgeFriction<T>& kept, bool looked_up,
                                                            const Outside& outside) const {
     const Cell<T> row = locate<edge_pressures>(pressure_difference_Pa, pressure_difference, outside);
     const Cell<T> column = locate<edge_positions>(position_m, position, outside);
-    return at(Cell<T>{layer.index & (edge_temperatures - 2), layer.share}, row, column, pressure_difference, kept,
-              looked_up);
+    return at(Cell<T>{layer.index & (edge_temperatures - 2), layer.share}, row, column, pressure_difference);
   }
   [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(T temperature, T pressure_difference, T position) const {
     const OilLayer<T> layer = layer_at(temperature);
     bool inside = true;
-    EdgeFriction<T> friction;
-    EdgePoint<T> out = at(layer.cell, pressure_difference, position, friction, true, [&] { inside = false; });
+    EdgePoint<T> out = at(layer.cell, pressure_difference, position, [&] { inside = false; });
     out.inside = inside;
     out.temperature_inside = layer.inside;
     return out;

@@ -135,7 +135,7 @@ template <class T>
 SPOOLFLOW_INLINE constexpr void answer(const ObserverParameters<T>& valve, const PressureState<T>& pressure,
                                        const ForceBalance<T>& balance, Estimate<T>& out) {
   const T highest_Pa = valve.highest_pressure_difference_Pa();
-  const T conductance = balance.edge.conductance;
+  const T conductance = at_least_zero(balance.edge.conductance);
   const PressureBand<T> band = pressure_band(pressure, pressure.half_widths, highest_Pa);
   out.pressure_difference_Pa = band.expected_Pa;
   out.flow_m3_per_s = conductance * sqrt(band.expected_Pa);
@@ -232,9 +232,8 @@ SPOOLFLOW_INLINE constexpr void observe_forces(const ObserverParameters<T>& valv
 
   // Axial force and friction.
   const T spring_N = valve.spring.at(position.position_m).value;
-  const EdgePoint<T> edge =
-      valve.edge.at(state.oil_layer, state.pressure.pressure_difference_Pa, position.position_m, state.edge_friction,
-                    schedule.edge_friction, [&] { status |= Status::outside_flow_force_map; });
+  const EdgePoint<T> edge = valve.edge.at(state.oil_layer, state.pressure.pressure_difference_Pa, position.position_m,
+                                          [&] { status |= Status::outside_flow_force_map; });
   const ForceBalance<T> balance = balance_forces(
       valve, {state.friction, state.swing}, {actuator, spring_N, edge, state.pressure.friction_ratio}, position, dither,
       {schedule.slip_excess, schedule.friction_memory, state.dither.period_s, sample.time_step_s});

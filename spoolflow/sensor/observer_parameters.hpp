@@ -102,7 +102,6 @@ struct ObserverState {
   OilState<T> oil;
   Cell<T> oil_layer{};  ///< of its temperature in the edge's tables
   T drift_m{};          ///< of the position's zero at that temperature
-  EdgeFriction<T> edge_friction{};
   Status oil_status{};  ///< what must be said of it with each answer
   ForceErrors<T> force_errors;
   T unmoved_s{};        ///< for how long the forces have contradicted a closed position (closed_evidence.hpp)

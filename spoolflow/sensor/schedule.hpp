@@ -15,7 +15,6 @@ namespace spoolflow::sensor {
 /// | friction_memory                | the sample that closes a block                         | a block           |
 /// | coil_diagnosis                 | the first after four blocks' time that closes none     | four blocks       |
 /// | force_uncertainty, slip_excess | odd samples that close none, and a change of sides     | not needed        |
-/// | edge_friction                  | odd samples that close none, and a change of sides     | not needed        |
 /// | process_noise, band            | even samples that close none                           | not needed        |
 /// | friction_ratio                 | the even ones of the samples that follow a block       | two blocks        |
 /// | oil_temperature                | the odd ones of the samples that follow a block        | two blocks        |
@@ -25,7 +24,6 @@ struct Schedule {
   Due<T> coil_diagnosis;
   bool force_uncertainty;
   bool slip_excess;
-  bool edge_friction;
   bool process_noise;
   bool band;
   Due<T> friction_ratio;
@@ -43,7 +41,7 @@ SPOOLFLOW_INLINE constexpr Schedule<T> schedule_of(const PositionBlock<T>& block
   Schedule<T> out;
   out.friction_memory = {block.closed, block.length_s, T(1)};
   out.coil_diagnosis = {!busy, block.length_s, T(4)};
-  out.force_uncertainty = out.slip_excess = out.edge_friction = odd;
+  out.force_uncertainty = out.slip_excess = odd;
   out.process_noise = out.band = even;
   out.friction_ratio = {even && block.follows, block.length_s, pair};
   out.oil_temperature = {odd && block.follows, block.length_s, pair};

@@ -289,9 +289,8 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
   if (changes) {
     detail::change_sides(valve, state);
     state.open.position.coil.current_A = sample_of(sample, state.opens_a).current_A;
-    schedule.force_uncertainty = schedule.slip_excess = schedule.edge_friction =
-        true;                             // they are those of the other solenoid
-    schedule.oil_temperature.now = true;  // its place is that in the other edge's tables
+    schedule.force_uncertainty = schedule.slip_excess = true;  // they are those of the other solenoid
+    schedule.oil_temperature.now = true;                       // its place is that in the other edge's tables
   }
   state.idle.current_A = sample_of(sample, !state.opens_a).current_A;
 
