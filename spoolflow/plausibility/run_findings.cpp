@@ -17,7 +17,6 @@
 #include "spoolflow/plausibility/oil_temperature.hpp"
 #include "spoolflow/plausibility/recording_error.hpp"
 #include "spoolflow/plausibility/reference_shift.hpp"
-#include "spoolflow/plausibility/relation.hpp"
 #include "spoolflow/plausibility/run_relations.hpp"
 #include "spoolflow/plausibility/signals/coil_signals.hpp"
 #include "spoolflow/plausibility/steady_lines.hpp"
@@ -228,8 +227,8 @@ std::string dead_channel(const Recording& run, double stroke_m) {
   if (range_of(run.column(Channel::position)) > moving_share * stroke_m) alive.push_back(Channel::flow);
   for (const Channel channel : alive) {
     if (const std::optional<double> value = standing_value(run.column(channel))) {
-      return fmt::format("{} stands still at {} all along: look at its wire and its column in the channel map",
-                         shown_name(channel), shown_value(channel, *value));
+      return fmt::format("{} stands still at {:.3g} (SI) all along: look at its wire and its column in the channel map",
+                         shown_name(channel), *value);
     }
   }
   return {};
