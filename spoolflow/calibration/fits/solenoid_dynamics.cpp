@@ -143,13 +143,6 @@ std::map<int, double> shares_by_what_is_left(const std::map<int, FitResidual>& p
   return shares;
 }
 
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
-
 /// Calls `each(k, magnetising current [A])` at every sample of a held armature, the coil begun again.
 template <class Each>
 void along(const HeldArmature& held, const SolenoidSamples& samples, const sensor::Coil<double>& coil, Each&& each) {
@@ -186,8 +179,8 @@ std::vector<TestResidual> residuals_of(const SolenoidSamples& samples, const sen
   std::vector<TestResidual> list;
   for (auto& [number, test] : out) {
     test.test = number;
-    test.static_map_p95_N = quantile(std::move(tests[number].static_map_N), 0.95);
-    test.model_p95_N = quantile(std::move(tests[number].model_N), 0.95);
+    test.static_map_p95_N = numerics::quantile(std::move(tests[number].static_map_N), 0.95);
+    test.model_p95_N = numerics::quantile(std::move(tests[number].model_N), 0.95);
     list.push_back(test);
   }
   return list;

@@ -101,8 +101,7 @@ void require_evidence(const UnitEvidence& evidence, const std::string& file, con
   throw CalibrationError(fmt::format(
       "{}: the recordings show no forces and no flow of the unit; record unpressurised_strokes, or operation with "
       "pressure_difference or flow_reference, in which the spool moves over its stroke with the dither off, under "
-      "{:.0f} "
-      "bar at most, up to which the type was calibrated",
+      "{:.0f} bar at most, up to which the type was calibrated",
       file, 1e-5 * type.observer->parameters.edge.highest_pressure_difference_Pa()));
 }
 
