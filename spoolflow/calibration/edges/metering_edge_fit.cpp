@@ -175,14 +175,14 @@ std::vector<std::string> maps_left_aside(const std::vector<const recording::Reco
     const std::string both =
         fmt::format("{} and {}", (*same)->file.filename().string(), maps[k]->file.filename().string());
     const bool known = std::isfinite(its_K + mean_oil_temperature_K(**same));
-    out.push_back(known
-                      ? fmt::format("{} are both of oil at {:.1f} degC, and one of them is left aside; name one "
-                                    "recording an oil temperature, with all its pressure differences",
-                                    both, units::degC_from_K(its_K))
-                      : fmt::format("{}: no oil temperature tells them apart, one of them is left aside, and the band "
-                                    "holds at one unknown oil temperature alone; record oil_temperature, or name its "
-                                    "column in a channel map",
-                                    both));
+    out.push_back(
+        known ? fmt::format("{} are both of oil at {:.1f} degC, and one of them is left aside; name one "
+                            "recording an oil temperature, with all its pressure differences",
+                            both, units::degC_from_K(its_K))
+              : fmt::format("{}: no oil temperature distinguishes them, one of them is left aside, and the band "
+                            "holds at one unknown oil temperature alone; record oil_temperature, or name its "
+                            "column in a channel map",
+                            both));
   }
   return out;
 }

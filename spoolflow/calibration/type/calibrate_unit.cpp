@@ -275,7 +275,8 @@ CalibratedUnit calibrate_unit(const model::Model& type, const std::string& type_
   for (std::size_t k = 0; k < unit.recordings.size(); ++k) {
     const recording::CampaignRecording& entry = unit.recordings[k];
     progress(fmt::format("reading {}", entry.file.filename().string()), 0);
-    require_new(entry, model::sha256_of_file(entry.file), provenance.inputs);
+    std::string sha256 = model::sha256_of_file(entry.file);
+    require_new(entry, sha256, provenance.inputs);
     const recording::Recording& read = recordings.emplace_back(recording::read_recording(entry.file, options[k]));
     if (entry.protocol == recording::Protocol::unpressurised_strokes) {
       const std::string why = not_unpressurised(read, type.valve.rated_flow_m3_per_s, type.valve.stroke_m);
@@ -283,7 +284,7 @@ CalibratedUnit calibrate_unit(const model::Model& type, const std::string& type_
       strokes.push_back(&read);
     }
     provenance.inputs.push_back({std::string(recording::name(entry.protocol)), entry.file.filename().string(),
-                                 model::sha256_of_file(entry.file), read.size(), read.resampled});
+                                 std::move(sha256), read.size(), read.resampled});
     const std::string direction = direction_of(entry, read, type);
     if (entry.protocol == recording::Protocol::operation) add_doubts(provenance.doubts, type, read, direction);
     runs.push_back({&read, entry.protocol, direction});
