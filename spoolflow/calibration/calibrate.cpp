@@ -40,7 +40,7 @@ model::Direction calibrate_benches(const CampaignRecordings& recordings, const m
   model::Direction out{std::move(condensed.condensed), std::nullopt, std::move(condensed.evidence)};
   ObserverCalibration full =
       calibrate_on_bench({recordings.spring, force_map, recordings.solenoid_dynamic, recordings.axial_force_maps,
-                          recordings.flow_bench, recordings.actuator_is_inferred()},
+                          recordings.flow_bench, recordings.actuator_is_inferred(), recordings.fluid},
                          valve, out.condensed.parameters.closed_below_m);
   out.observer = std::move(full.observer);
   out.evidence.bench = std::move(full.bench);
@@ -266,8 +266,7 @@ model::Model calibrate(const recording::Campaign& campaign, const std::string& t
   model::Model out =
       whole ? calibrate_whole_valve(recordings.of("b"), recordings.of("a"), recordings.through_centre(), valve, fitting)
             : calibrate_valve(recordings.of(direction), valve, fitting);
-  out.fluid = {campaign.fluid.name, campaign.fluid.density_15C_kg_per_m3, campaign.fluid.viscosity_40C_m2_per_s,
-               campaign.fluid.viscosity_100C_m2_per_s};
+  out.fluid = fluid_of(campaign);
   const recording::CampaignInstruments& instruments = campaign.instruments;
   out.instruments = {instruments.position_uncertainty_m, instruments.current_uncertainty_A,
                      instruments.force_uncertainty_N, instruments.pressure_uncertainty_Pa,

@@ -30,6 +30,11 @@ bool goes_through_centre(const recording::Recording& recording, const recording:
 
 }  // namespace
 
+model::Fluid fluid_of(const recording::Campaign& campaign) {
+  return {campaign.fluid.name, campaign.fluid.density_15C_kg_per_m3, campaign.fluid.viscosity_40C_m2_per_s,
+          campaign.fluid.viscosity_100C_m2_per_s};
+}
+
 ReadCampaign::ReadCampaign(const recording::Campaign& campaign)
     : campaign_(campaign), options_(complete_read_options(campaign)), directions_(bench_directions(campaign)) {}
 

@@ -8,6 +8,7 @@
 
 #include "spoolflow/calibration/edges/path_of_edges.hpp"
 #include "spoolflow/calibration/flow_bench/equivalent_benches.hpp"
+#include "spoolflow/model/model.hpp"
 #include "spoolflow/recording/campaign.hpp"
 #include "spoolflow/recording/read_options.hpp"
 #include "spoolflow/recording/recording.hpp"
@@ -24,10 +25,14 @@ struct CampaignRecordings {
   AxialForceMaps axial_force_maps;
   Recordings operation;                           ///< may be none
   const EquivalentBenches* flow_bench = nullptr;  ///< where strokes at held pressure differences are among them
+  model::Fluid fluid{};
   [[nodiscard]] bool actuator_is_inferred() const {
     return flow_bench != nullptr && &solenoid_force_map == &flow_bench->solenoid_force_map;
   }
 };
+
+/// The data sheet's values of the oil.
+[[nodiscard]] model::Fluid fluid_of(const recording::Campaign& campaign);
 
 /// A campaign's recordings, read; addresses stay valid while more are read.
 class ReadCampaign {

@@ -11,14 +11,12 @@ namespace spoolflow::calibration {
 namespace {
 
 constexpr double deviations_at_95 = 2;  ///< standard deviations in a half width at 95 %
-/// Mineral oil's viscosity falls by so much a kelvin [1/K], where the campaign gives no viscosities: HLP 46.
-constexpr double usual_viscosity_fall_1_per_K = 0.032;
 
+/// By how much viscosity falls a kelvin between 40 and 100 degrees Celsius [1/K].
 double viscosity_fall_1_per_K(const model::Fluid& fluid) {
-  if (!fluid.viscosity_40C_m2_per_s || !fluid.viscosity_100C_m2_per_s) return usual_viscosity_fall_1_per_K;
-  constexpr double between_K = 60;
-  const double fall = std::log(*fluid.viscosity_40C_m2_per_s / *fluid.viscosity_100C_m2_per_s) / between_K;
-  return fall > 0 ? fall : usual_viscosity_fall_1_per_K;
+  constexpr double warm_K = 313.15, hot_K = 373.15;
+  return std::log(model::viscosity_m2_per_s(fluid, warm_K) / model::viscosity_m2_per_s(fluid, hot_K)) /
+         (hot_K - warm_K);
 }
 
 sensor::Environment<double> of_valve(const recording::Environment& from, const model::Fluid& fluid,

@@ -63,7 +63,7 @@ class Rows {
     add("influence of the oil temperature", several ? measured : assumed,
         several ? fmt::format("recordings at {:.0f} to {:.0f} °C", units::degC_from_K(lowest_K),
                               units::degC_from_K(highest_K))
-                : "none: all at one oil temperature",
+                : "density and viscosity: all at one oil temperature",
         "1", {});
   }
 

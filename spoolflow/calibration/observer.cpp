@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/calibration/edges/metering_edge_fit.hpp"
+#include "spoolflow/calibration/edges/other_oil.hpp"
 #include "spoolflow/calibration/fits/actuator_fit.hpp"
 #include "spoolflow/calibration/fits/magnetic_force_fit.hpp"
 #include "spoolflow/calibration/fits/map_residuals.hpp"
@@ -122,6 +123,8 @@ BenchFits fit_bench(const ObserverRecordings& recordings, double stroke_m) {
   take_off_drift(recordings.axial_force_maps, stroke_m, out);
   out.axial = fit_path(out.maps, out.spring.spring, stroke_m);
   out.edge = fit_metering_edge(out.axial.path, out.spring.spring, out.spring.friction_half_width_N);
+  if (is_of_one_temperature(out.edge))
+    continue_to_other_oil(out.edge.edge, out.edge.lowest_temperature_K, recordings.fluid);
   return out;
 }
 

@@ -19,6 +19,7 @@ struct ObserverRecordings {
   AxialForceMaps axial_force_maps;
   const EquivalentBenches* flow_bench = nullptr;  ///< where some of them are from there
   bool actuator_is_inferred = false;
+  model::Fluid fluid{};
 };
 
 struct ObserverCalibration {

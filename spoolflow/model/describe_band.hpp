@@ -131,6 +131,12 @@ void describe_machine_constants(Visitor& visitor) {
                     .unit = "m3/s/Pa(1/2)",
                     .meaning = "a smaller conductance is none: shares divide by it"},
                    sensor::vanishing_conductance);
+  visitor.constant(
+      {.name = "continued_flow_share_per_K",
+       .unit = "1/K",
+       .meaning = "standard uncertainty of the flow rate where the oil is colder or warmer than calibrated, "
+                  "as a share of it, over how far the trend of viscosity is continued"},
+      sensor::continued_flow_share_per_K);
   visitor.constant({.name = "most_environment_N",
                     .unit = "N",
                     .meaning = "more than this leaves nothing known of the pressure difference"},

@@ -18,6 +18,11 @@ void describe_map_constants(Visitor& visitor) {
                     .unit = "N/Pa",
                     .meaning = "lower limit of the slope of the flow force over the pressure difference"},
                    sensor::least_force_per_pressure_N_Pa);
+  visitor.constant({.name = "viscosity_origin_K",
+                    .unit = "K",
+                    .meaning = "the logarithm of viscosity is linear in one over the distance to this temperature"},
+                   sensor::viscosity_origin_K);
+  visitor.constant({.name = "lowest_oil_K", .unit = "K", .meaning = "no oil counts as colder"}, sensor::lowest_oil_K);
 }
 
 template <class Visitor>

@@ -38,7 +38,7 @@ constexpr T edge_effect_N(const EdgePoint<T>& edge, const EdgePoint<T>& other, T
 /// Where the valve works.
 template <class T>
 struct OperatingPoint {
-  T oil_temperature_K;
+  Cell<T> oil_layer;         ///< of its temperature
   T pressure_difference_Pa;  ///< estimated
   T position_m;
   T current_A;
@@ -67,14 +67,14 @@ SPOOLFLOW_NOINLINE constexpr T environment_N(const ObserverParameters<T>& valve,
   const T widest = edge.conductance.node(0, 1, edge_positions - 1);
   const T least = larger(T(least_conductance_share) * widest, T(vanishing_conductance));
   const T off_m = sqrt(squared(environment.position_m) + squared(environment.position_share * position_m));
-  const auto layer_at = [&](T oil_K) { return locate<edge_temperatures>(edge.temperature_K, oil_K); };
   const auto column_at = [&](T place_m) { return locate<edge_positions>(edge.position_m, place_m); };
   const Cell<T> row = locate<edge_pressures>(edge.pressure_difference_Pa, pressure_Pa);
-  const EdgePoint<T> there = edge.at(layer_at(at.oil_temperature_K), row, column_at(position_m + off_m), pressure_Pa);
+  const EdgePoint<T> there = edge.at(at.oil_layer, row, column_at(position_m + off_m), pressure_Pa);
   const T stiffness_N_per_m = valve.spring.at(position_m).slope - effects.force_per_position_N_per_m;
   const T moved_N = edge_effect_N(effects.edge, there, pressure_Pa, least) - stiffness_N_per_m * off_m;
-  const EdgePoint<T> warmer =
-      edge.at(layer_at(at.oil_temperature_K + environment.oil_temperature_K), row, column_at(position_m), pressure_Pa);
+  const Cell<T> warmer_layer{at.oil_layer.index,
+                             at.oil_layer.share + environment.oil_temperature_K * edge.temperature_K.per_spacing};
+  const EdgePoint<T> warmer = edge.at(warmer_layer, row, column_at(position_m), pressure_Pa);
   const T warmer_N = edge_effect_N(effects.edge, warmer, pressure_Pa, least);
   const T current_N = environment.current_share * at.current_A * effects.force_per_current_N_per_A;
   // About the mean of the swing one iron keeps its loop (stops, Preisach), another's closes (Coleman and Hodgdon).
@@ -87,6 +87,19 @@ SPOOLFLOW_NOINLINE constexpr T environment_N(const ObserverParameters<T>& valve,
       sqrt(squared(environment.force_N) + squared(current_N) + squared(loop_N) + squared(moved_N) + squared(warmer_N) +
            squared(ripple_N) + squared(freed_N) + squared(friction_N) + squared(breakaway_N));
   return smaller(all_N, T(most_environment_N));
+}
+
+/// Oil colder or warmer than what was measured: one standard deviation of the flow rate that is left open, as a share
+/// of it, over how far the trend is continued [1/K].
+inline constexpr double continued_flow_share_per_K = 0.002;
+
+/// The same as a force [N], by where the oil temperature lies between the layers of the tables.
+template <class T>
+SPOOLFLOW_INLINE constexpr T continued_oil_N(const MeteringEdge<T>& tables, T layer_share, const EdgePoint<T>& edge,
+                                             T pressure_difference_Pa) {
+  if (likely(within(layer_share, T(1)))) return T(0);
+  const T beyond_K = magnitude(layer_share - limited(layer_share, T(0), T(1))) * tables.temperature_K.spacing;
+  return T(2 * continued_flow_share_per_K) * beyond_K * edge.flow_force_per_pressure_N_Pa * pressure_difference_Pa;
 }
 
 /// Half the width that the flow's own residual takes in the band, over its standard deviation.

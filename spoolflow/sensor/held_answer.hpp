@@ -11,7 +11,7 @@ template <class T>
 struct Unobserved {
   PressureState<T>& pressure;
   const ForceErrors<T>& errors;
-  T oil_temperature_K;
+  const Cell<T>& oil_layer;
 };
 
 /// Where the spool may stand while forces are not used.
@@ -27,12 +27,12 @@ struct DoubtfulPlace {
 template <class T>
 constexpr Passage<T> passage_at(const MeteringEdge<T>& edges, const EdgePoint<T>& edge, const Unobserved<T>& known,
                                 const DoubtfulPlace<T>& position) {
-  if (!position.fault) return {edge.conductance, edge.conductance, edge.conductance};
+  const T here = at_least_zero(edge.conductance);
+  if (!position.fault) return {here, here, here};
   const T there =
-      edges.at(known.oil_temperature_K, known.pressure.pressure_difference_Pa, magnitude(position.elsewhere_m))
-          .conductance;
+      edges.at(known.oil_layer, known.pressure.pressure_difference_Pa, magnitude(position.elsewhere_m)).conductance;
   const T elsewhere = position.elsewhere_m < T(0) ? -there : there;
-  return {edge.conductance, smaller(edge.conductance, elsewhere), larger(edge.conductance, elsewhere)};
+  return {here, smaller(here, elsewhere), larger(here, elsewhere)};
 }
 
 /// Where the spool stands while an answer is held.
@@ -52,9 +52,9 @@ SPOOLFLOW_INLINE constexpr void widen_held(const ObserverParameters<T>& valve, c
   const T highest_Pa = valve.highest_pressure_difference_Pa();
   drift_unobserved(valve.pressure, known.pressure, smaller(time_step_s, T(longest_step_s)), highest_Pa);
   const T pressure_Pa = known.pressure.pressure_difference_Pa;
-  const EdgePoint<T> edge = edges.at(known.oil_temperature_K, pressure_Pa, at.position_m);
+  const EdgePoint<T> edge = edges.at(known.oil_layer, pressure_Pa, at.position_m);
   const T open_conductance =
-      edges.at(known.oil_temperature_K, pressure_Pa, edges.position_m.at(edge_positions - 1)).conductance;
+      edges.at(known.oil_layer, pressure_Pa, edges.position_m.at(edge_positions - 1)).conductance;
   const T least = at.seen ? edge.conductance : T(0);
   const Passage<T> passage{least, least, at.seen ? edge.conductance : open_conductance};
   Estimate<T> now{};

@@ -26,6 +26,11 @@ struct EdgePoint {
   bool temperature_inside = true;  ///< the same of the oil temperature
 };
 
+/// The logarithm of a mineral oil's viscosity is linear in 1/(T - this) [K] (Vogel's equation with Cameron's constant).
+inline constexpr double viscosity_origin_K = 178.15;
+/// No oil counts as colder [K]: it would hardly flow.
+inline constexpr double lowest_oil_K = 258.15;
+
 /// From what was measured at the highest pressure difference `measured_Pa` to a larger one: at a given opening the
 /// steady flow force is in proportion to it (paper (2) with the orifice equation), friction goes on linearly (paper
 /// section 2.1.3), and the conductance stays.
@@ -43,6 +48,22 @@ struct OilLayer {
   Cell<T> cell{};
   bool inside{};  ///< within what was measured
 };
+
+/// A layer that was kept: a bit that falls in its memory leads to no place outside of the tables.
+template <class T>
+SPOOLFLOW_INLINE constexpr Cell<T> in_tables(const Cell<T>& layer) {
+  static_assert(edge_temperatures == 3, "one bit tells the two cells apart");
+  return {layer.index & (edge_temperatures - 2), layer.share};
+}
+
+/// What oil of a temperature beyond the layers adds to the share of the cell at that end: the trend of the outermost
+/// layers goes on over the logarithm of viscosity.
+template <class T>
+SPOOLFLOW_NOINLINE constexpr T continued_share(const Axis<T>& temperature_K, int cell, T temperature) {
+  const T outermost_K = temperature_K.at(2 * cell), bounded_K = larger(temperature, T(lowest_oil_K));
+  return (bounded_K - outermost_K) * temperature_K.per_spacing * (temperature_K.at(1) - T(viscosity_origin_K)) /
+         (bounded_K - T(viscosity_origin_K));
+}
 
 /// Steady flow force (paper (2), terms 1 and 2), spool friction and flow over oil temperature [K] (layers), pressure
 /// difference [Pa] (rows) and spool position [m] (columns), measured on the axial-force rig (paper section 3, Fig 5).
@@ -67,10 +88,12 @@ struct MeteringEdge {
     return pressure_difference > highest_pressure_difference_Pa();
   }
 
+  /// Oil colder or warmer than what was measured goes on by the outermost layers' trend over viscosity: the share of
+  /// the cell then lies below 0 or above 1.
   [[nodiscard]] constexpr OilLayer<T> layer_at(T temperature) const {
-    static_assert(edge_temperatures == 3, "one bit tells the two cells apart");
     OilLayer<T> out{{}, true};
     out.cell = locate<edge_temperatures>(temperature_K, temperature, [&] { out.inside = false; });
+    if (unlikely(!out.inside)) out.cell.share += continued_share(temperature_K, out.cell.index, temperature);
     return out;
   }
 
@@ -84,14 +107,18 @@ struct MeteringEdge {
     return {force.value, larger(force.row_slope, T(least_force_per_pressure_N_Pa)), friction.value, friction.row_slope,
             conductance.at(cell).value};
   }
-  /// The layer may be kept while the oil temperature stays. A bit that falls in its memory leads to no place outside of
-  /// the tables. `outside()` is called where pressure difference or position lie outside of what was measured.
+  /// The layer may be kept while the oil temperature stays. `outside()` is called where pressure difference or position
+  /// lie outside of what was measured.
   template <class Outside>
   [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(const Cell<T>& layer, T pressure_difference, T position,
                                                            const Outside& outside) const {
     const Cell<T> row = locate<edge_pressures>(pressure_difference_Pa, pressure_difference, outside);
     const Cell<T> column = locate<edge_positions>(position_m, position, outside);
-    return at(Cell<T>{layer.index & (edge_temperatures - 2), layer.share}, row, column, pressure_difference);
+    return at(in_tables(layer), row, column, pressure_difference);
+  }
+  [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(const Cell<T>& layer, T pressure_difference,
+                                                           T position) const {
+    return at(layer, pressure_difference, position, [] {});
   }
   [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(T temperature, T pressure_difference, T position) const {
     const OilLayer<T> layer = layer_at(temperature);

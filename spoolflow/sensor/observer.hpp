@@ -117,14 +117,16 @@ SPOOLFLOW_INLINE constexpr void follow_half_widths(const ObserverParameters<T>& 
                                                    T current_A) {
   PressureState<T>& pressure = state.pressure;
   follow_agreement(pressure);
+  T open_N = continued_oil_N(valve.edge, state.oil_layer.share, balance.edge, pressure.pressure_difference_Pa);
   if (!is_bench(valve.environment))
-    state.force_errors.environment_N =
+    open_N +=
         environment_N(valve,
                       EnvironmentEffects<T>{balance.edge, balance.actuator.force_per_position_N_per_m,
                                             balance.actuator.force_per_current_N_per_A, balance.bounds.sliding_N,
                                             balance.spool_friction_N + balance.armature_friction_N, balance.dithered},
-                      {state.oil.temperature_K, pressure.pressure_difference_Pa, position.position_m, current_A,
+                      {in_tables(state.oil_layer), pressure.pressure_difference_Pa, position.position_m, current_A,
                        pressure.breakaway_Pa});
+  state.force_errors.environment_N = open_N;
   pressure.half_widths = pressure_half_widths(
       valve.band, pressure, balance, state.friction.rest_s, position.velocity_m_per_s,
       displaced_ratio(valve.pressure, pressure, valve.friction.operation_ratio), state.force_errors.environment_N);
@@ -161,15 +163,13 @@ SPOOLFLOW_NOINLINE constexpr void answer_in_doubt(ObserverState<T>& state, const
   follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, {true, T(0), T(0)});
   const T highest_Pa = valve.highest_pressure_difference_Pa();
   drift_unobserved(valve.pressure, state.pressure, sample.time_step_s, highest_Pa);
-  const EdgePoint<T> edge =
-      valve.edge.at(state.oil.temperature_K, state.pressure.pressure_difference_Pa, position.position_m);
+  const EdgePoint<T> edge = valve.edge.at(state.oil_layer, state.pressure.pressure_difference_Pa, position.position_m);
   const PressureHalfWidths<T> widths = unobserved_half_widths(valve.band, state.pressure, state.force_errors, edge);
   PressureBand<T> band = pressure_band(state.pressure, widths, highest_Pa);
   const CoilResistanceState<T>& coil = state.actuator.coil_resistance;
   if (coil.unanswered || position.stopped) band = {T(0), band.expected_Pa, highest_Pa};
   Estimate<T>& out = state.last;
-  answer_flow(valve,
-              passage_at(valve.edge, edge, {state.pressure, state.force_errors, state.oil.temperature_K}, position),
+  answer_flow(valve, passage_at(valve.edge, edge, {state.pressure, state.force_errors, state.oil_layer}, position),
               band, out);
   out.magnetic_force_N = actuator.magnetic_force_N;
   out.spring_force_N = valve.spring.at(position.position_m).value;
@@ -277,13 +277,13 @@ SPOOLFLOW_NOINLINE constexpr void hold(ObserverState<T>& state, const Sample<T>&
   const bool seen = is_number(sample.position_m);
   const T measured_m = drift_free_m(valve.position_sensor, sample.position_m, state.oil.temperature_K);
   if (state.started && within(time_step_s, T(endless_step_s))) {
-    widen_held(valve, {state.pressure, state.force_errors, state.oil.temperature_K},
+    widen_held(valve, {state.pressure, state.force_errors, state.oil_layer},
                {seen ? measured_m : state.position.last_m, seen}, time_step_s, state.last);
   }
   state.started = state.started && !leapt;
   if (!state.started) open_band(state.last, {T(0), most_flow(valve)}, true, T(0));
   state.last.status = unusable(sample) | when(leapt, Status::time_fault);
-  admit_other_direction(valve, state.oil.temperature_K, seen ? measured_m : T(0), state.last);
+  admit_other_direction(valve, state.oil_layer, seen ? measured_m : T(0), state.last);
 }
 
 }  // namespace detail
@@ -321,7 +321,7 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
   detail::follow_oil(valve.position_sensor, state, sample.oil_temperature_K, schedule.oil_temperature);
   detail::observe(valve, state, sample, position, dither, schedule, T(0), faults);
   if (has(state.last.status, Status::closed))
-    admit_other_direction(valve, state.oil.temperature_K, position.position_m, state.last);
+    admit_other_direction(valve, state.oil_layer, position.position_m, state.last);
   return state.last;
 }
 

@@ -9,10 +9,10 @@ namespace detail {
 
 /// The band takes in all that may flow through the other direction's edge.
 template <class T>
-SPOOLFLOW_NOINLINE constexpr void admit_all(const ObserverParameters<T>& valve, T oil_temperature_K, T position_m,
+SPOOLFLOW_NOINLINE constexpr void admit_all(const ObserverParameters<T>& valve, const Cell<T>& oil_layer, T position_m,
                                             Estimate<T>& out) {
   const T highest_Pa = valve.highest_pressure_difference_Pa();
-  const T most = valve.edge.at(oil_temperature_K, highest_Pa, -position_m).conductance * sqrt(highest_Pa);
+  const T most = valve.edge.at(oil_layer, highest_Pa, -position_m).conductance * sqrt(highest_Pa);
   out.flow_lower_m3_per_s = smaller(out.flow_lower_m3_per_s, -most);
   out.status |= Status::other_direction;
 }
@@ -21,10 +21,10 @@ SPOOLFLOW_NOINLINE constexpr void admit_all(const ObserverParameters<T>& valve, 
 
 /// Where the position says that the spool opens the other direction.
 template <class T>
-SPOOLFLOW_INLINE constexpr void admit_other_direction(const ObserverParameters<T>& valve, T oil_temperature_K,
+SPOOLFLOW_INLINE constexpr void admit_other_direction(const ObserverParameters<T>& valve, const Cell<T>& oil_layer,
                                                       T position_m, Estimate<T>& out) {
   const bool opens = position_m < T(-0.5) * valve.closed_below_m - T(other_direction_m);
-  if (unlikely(opens)) detail::admit_all(valve, oil_temperature_K, position_m, out);
+  if (unlikely(opens)) detail::admit_all(valve, oil_layer, position_m, out);
 }
 
 }  // namespace spoolflow::sensor

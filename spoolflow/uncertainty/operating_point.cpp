@@ -37,8 +37,6 @@ double half_width_N(const std::vector<Loop>& loops, double Loop::*level_of, doub
   return loops.empty() ? 0 : interpolated(levels, widths, level);
 }
 
-constexpr double thermal_expansion_per_K = 7e-4;  // mineral oil, 6.5e-4 to 7.5e-4
-
 }  // namespace
 
 double map_temperature_K(const model::Model& model) {
@@ -82,27 +80,16 @@ Surroundings surroundings_at(const model::Model& model, const WorkingPoint& poin
     const double flow_force_N = model.condensed.parameters.magnetic_force.at(current_A, point.position_m).value -
                                 model.condensed.parameters.spring.at(point.position_m).value;
     out.flow_per_temperature_m3_per_s_K =
-        0.5 * thermal_expansion_per_K * flow_rate.at(flow_force_N, point.position_m).flow_m3_per_s;
+        0.5 * model::thermal_expansion_per_K * flow_rate.at(flow_force_N, point.position_m).flow_m3_per_s;
   }
   return out;
 }
 
 double temperature_per_viscosity_K(const model::Fluid& fluid, double oil_temperature_K) {
-  constexpr double usual_K = -1 / 0.035;
-  if (!fluid.viscosity_40C_m2_per_s || !fluid.viscosity_100C_m2_per_s) return usual_K;
-  const auto twice_log = [](double viscosity_m2_per_s) {
-    return std::log10(std::log10(1e6 * viscosity_m2_per_s + 0.7));
-  };
-  const double slope = (twice_log(*fluid.viscosity_40C_m2_per_s) - twice_log(*fluid.viscosity_100C_m2_per_s)) /
-                       (std::log10(units::K_from_degC(100)) - std::log10(units::K_from_degC(40)));
-  if (!(slope > 0)) return usual_K;
-  const double at = twice_log(*fluid.viscosity_40C_m2_per_s) -
-                    slope * (std::log10(oil_temperature_K) - std::log10(units::K_from_degC(40)));
-  const double log_of_sum = std::pow(10.0, at);  // lg(viscosity + 0.7), viscosity in mm2/s
-  const double sum = std::pow(10.0, log_of_sum);
-  // d lg lg(nu + 0.7)/d lg T = -slope, solved for d ln(nu)/dT.
-  const double per_K = -slope * log_of_sum * std::log(10.0) / oil_temperature_K * sum / (sum - 0.7);
-  return 1 / per_K;
+  constexpr double about_K = 0.5;
+  return -2 * about_K /
+         std::log(model::viscosity_m2_per_s(fluid, oil_temperature_K - about_K) /
+                  model::viscosity_m2_per_s(fluid, oil_temperature_K + about_K));
 }
 
 std::optional<std::vector<estimation::TimedSample>> course_to(const model::Model& model, const WorkingPoint& point) {

@@ -190,13 +190,26 @@ TEST(DeclaredEnvironmentOfIron, AMagneticLoopThatMayCloseCountsAsACurrentUnderDi
   ObserverParameters<double> declared = valve();
   const EdgePoint<double> edge = declared.edge.at(ClosedFormValve::drift_free_K, 60e5, 1.2e-3);
   const auto open_N = [&](bool dithered) {
-    return environment_N(declared, EnvironmentEffects<double>{edge, 0, force_per_current_N_per_A, 3, 3, dithered},
-                         OperatingPoint<double>{ClosedFormValve::drift_free_K, 60e5, 1.2e-3, 1, 0});
+    return environment_N(
+        declared, EnvironmentEffects<double>{edge, 0, force_per_current_N_per_A, 3, 3, dithered},
+        OperatingPoint<double>{declared.edge.layer_at(ClosedFormValve::drift_free_K).cell, 60e5, 1.2e-3, 1, 0});
   };
   EXPECT_NEAR(open_N(true), 0, 1e-9);
   declared.environment.dithered_loop_A = 0.02;
   EXPECT_NEAR(open_N(true), 1, 1e-9);
   EXPECT_NEAR(open_N(false), 0, 1e-9);
+}
+
+TEST(ContinuedOil, OpensTheBandByHowFarTheTrendOfViscosityGoesBeyondTheTables) {
+  const MeteringEdge<double> tables = valve().edge;
+  const auto open_N = [&](double oil_K) {
+    return continued_oil_N(tables, tables.layer_at(oil_K).cell.share, tables.at(oil_K, 60e5, 1.2e-3), 60e5);
+  };
+  for (const double measured_K : {303.0, 310.0, 323.0, 343.0}) EXPECT_EQ(open_N(measured_K), 0) << measured_K;
+  // 20 K of colder oil thicken it more than 20 K of warmer oil thin it.
+  EXPECT_GT(open_N(353), 0);
+  EXPECT_GT(open_N(283), 1.5 * open_N(363));
+  EXPECT_GT(open_N(273), 1.5 * open_N(283));
 }
 
 TEST(DeclaredEnvironmentOfFriction, RippleAndFrictionOpenTheBandInMotionAndAtRest) {

@@ -43,6 +43,20 @@ TEST(MeteringEdge, GoesOnAboveTheHighestPressureByPhysics) {
   EXPECT_NEAR(beyond.conductance, closed_form.conductance(1e-3, 313), 1e-15);
 }
 
+TEST(MeteringEdge, GoesOnInColderAndWarmerOilByViscosity) {
+  MeteringEdge<double> edge = closed_form_edge<double>(closed_form);
+  const auto conductance_at = [](double temperature_K) { return 1e-7 - 2e-6 / (temperature_K - viscosity_origin_K); };
+  for (int layer = 0; layer < edge_temperatures; ++layer) {
+    for (int row = 0; row < edge_pressures; ++row) {
+      for (int column = 0; column < edge_positions; ++column)
+        edge.conductance.node(layer, row, column) = conductance_at(edge.temperature_K.at(layer));
+    }
+  }
+  for (const double temperature_K : {263.0, 283.0, 353.0, 363.0})
+    EXPECT_NEAR(edge.at(temperature_K, 40e5, 1e-3).conductance, conductance_at(temperature_K), 1e-15) << temperature_K;
+  EXPECT_EQ(edge.at(200.0, 40e5, 1e-3).conductance, edge.at(lowest_oil_K, 40e5, 1e-3).conductance);
+}
+
 TEST(MeteringEdge, NeverDividesByASlopeOfNothing) {
   // Covered edges carry no flow force at any pressure: the slope is zero there, and forces are divided by it.
   const EdgePoint<double> closed = closed_form_edge<double>(closed_form).at(313.0, 40e5, 0.1e-3);

@@ -128,8 +128,8 @@ MeteringEdgeFit fit_metering_edge(std::vector<AxialForceFit> fits, const sensor:
   out.highest_temperature_K = known_K.back();
   out.known = laws_of(used, spring);
   sensor::MeteringEdge<double>& edge = out.edge;
-  const double width_K = std::max(known_K.back() - known_K.front(), 20.0);  // one temperature: a band of 10 K around it
-  const double first_K = known_K.size() > 1 ? known_K.front() : known_K.front() - 0.5 * width_K;
+  const double width_K = known_K.size() > 1 ? known_K.back() - known_K.front() : 2 * about_one_temperature_K;
+  const double first_K = known_K.size() > 1 ? known_K.front() : known_K.front() - about_one_temperature_K;
   const double step_K = width_K / (sensor::edge_temperatures - 1);
   const double step_Pa = highest_Pa / (sensor::edge_pressures - 1);
   const std::vector<double>& grid_m = used.front()->loops.front().position_m;

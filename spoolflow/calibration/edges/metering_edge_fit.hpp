@@ -13,6 +13,9 @@ namespace spoolflow::calibration {
 /// Of two recordings of oil that differs by less, one counts.
 inline constexpr double same_oil_temperature_K = 1;
 
+/// Maps of one oil temperature hold so far to either side of it.
+inline constexpr double about_one_temperature_K = 5;
+
 struct MeteringEdgeFit {
   sensor::MeteringEdge<double> edge;
   double lowest_temperature_K;
@@ -20,11 +23,16 @@ struct MeteringEdgeFit {
   std::vector<model::Fit> known;  ///< each map at three quarters of the stroke, as a law of pressure and temperature
 };
 
-/// One fit an oil temperature, any order, positions free of drift. With one temperature the maps do not depend on it;
-/// between temperatures they are interpolated linearly. Levels are interpolated onto equally spaced pressure
-/// differences from zero, where there is neither flow nor flow force and friction is that of the spring recording.
+/// One fit an oil temperature, any order, positions free of drift. With one temperature the layers are alike
+/// (other_oil.hpp); between temperatures they are interpolated linearly. Levels are interpolated onto equally spaced
+/// pressure differences from zero, where there is neither flow nor flow force and friction is that of the spring
+/// recording.
 [[nodiscard]] MeteringEdgeFit fit_metering_edge(std::vector<AxialForceFit> fits, const sensor::Spring<double>& spring,
                                                 const std::vector<double>& unloaded_friction_N);
+
+[[nodiscard]] inline bool is_of_one_temperature(const MeteringEdgeFit& fit) {
+  return fit.highest_temperature_K - fit.lowest_temperature_K < same_oil_temperature_K;
+}
 
 /// A sentence for each of the recordings of one edge that fit_metering_edge() leaves aside, or another for its sake: of
 /// the same oil temperature, or of one that nobody recorded.

@@ -25,7 +25,7 @@ struct MeasuredPath {
 /// The oil and where the spool is, in the direction's signs.
 template <class T>
 struct EdgePlace {
-  T oil_temperature_K;
+  const Cell<T>& oil_layer;
   T position_m;
 };
 
@@ -34,7 +34,7 @@ template <class T>
 constexpr void answer_measured(const ObserverParameters<T>& valve, const MeasuredPath<T>& path, const EdgePlace<T>& at,
                                Estimate<T>& out) {
   const DrivingDrop<T> drop = driving_drop(path.drops, path.inlet_share);
-  const T conductance = valve.edge.at(at.oil_temperature_K, magnitude(drop.drop_Pa), at.position_m).conductance;
+  const T conductance = valve.edge.at(at.oil_layer, magnitude(drop.drop_Pa), at.position_m).conductance;
   const T uncertain_Pa = valve.band.coverage_factor * drop.deviation_Pa;
   out.flow_m3_per_s = conductance * signed_root(drop.drop_Pa);
   band_of_flow(valve, conductance * signed_root(drop.drop_Pa - uncertain_Pa),

@@ -154,8 +154,7 @@ SPOOLFLOW_INLINE constexpr void observe_path(const ObserverParameters<T>& valve,
     const PathDrops<T> drops = path_drops(sample.ports, opens_a);
     use_measured(valve, state.open.pressure, drops);
     follow_share(valve.inlet, state.inlet_share, drops, sample.time_step_s);
-    answer_measured(valve, {drops, state.inlet_share}, {state.open.oil.temperature_K, position.position_m},
-                    state.open.last);
+    answer_measured(valve, {drops, state.inlet_share}, {state.open.oil_layer, position.position_m}, state.open.last);
   } else {
     mark_ambiguous_load(valve, state.open, position.position_m);
     widen_unsettled(valve.unsettled_load_share, state.settled_m3_per_s, sample.time_step_s, state.open.last);
@@ -227,8 +226,8 @@ constexpr void widen_held(const WholeValveParameters<T>& valve, WholeValveState<
   const T signed_m = seen ? measured_m : state.open.position.last_m;
   const T position_m = state.opens_a ? -signed_m : signed_m;
   Estimate<T> held = mirrored(state.opens_a, state.open.last);
-  sensor::widen_held(now.open, {state.open.pressure, state.open.force_errors, state.open.oil.temperature_K},
-                     {position_m, seen}, time_step_s, held);
+  sensor::widen_held(now.open, {state.open.pressure, state.open.force_errors, state.open.oil_layer}, {position_m, seen},
+                     time_step_s, held);
 
   const MeteringEdge<T>& other = now.idle.edge;
   const T highest_Pa = other.highest_pressure_difference_Pa();
