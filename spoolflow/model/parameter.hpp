@@ -1,9 +1,9 @@
 #pragma once
 /// How a number of a valve is described: once, with everything that JSON, FMU, C++ export, load check and documentation
 /// need to know of it. To add one, give it a member in a structure of spoolflow/sensor and one call in
-/// describe_observer.hpp or describe_condensed.hpp; `otherwise` lets files without it be read. A constant of the code
-/// gets one call in describe_constants.hpp. What runs show of a number stands in tuning_evidence.csv, which
-/// `bench/tuning_evidence.py --update` writes. Then `ci/parameters_page.sh` writes docs/formats/parameters.md again.
+/// describe_observer.hpp or describe_condensed.hpp; `otherwise` lets files without it be read. What runs show of a
+/// number, or of a constant of the sensor, stands in tuning_evidence.csv, which `bench/tuning_evidence.py --update`
+/// writes. Then `ci/parameters_page.sh` writes docs/formats/parameters.md again.
 #include <limits>
 #include <optional>
 #include <string>
@@ -74,13 +74,6 @@ struct TableParameter {
   AxisParameter rows{"", "", {0, 0}, 0};     ///< of a map; a curve has no rows, a volume's axes stand beside it
   AxisParameter columns{"", "", {0, 0}, 0};  ///< of a map or curve
   Relation relation{};
-};
-
-/// A number that is the same for all valves, and stands in the code.
-struct Constant {
-  const char* name;
-  const char* unit;
-  const char* meaning;
 };
 
 }  // namespace spoolflow::model

@@ -89,12 +89,11 @@ std::string page() {
   Lines lines;
   lines.out =
       "# Parameters\n\nMade by `ci/parameters_page.sh` from the descriptions in "
-      "`spoolflow/model/describe_observer.hpp` and its "
-      "neighbours, which also read and write\nthe model file and refuse what lies outside of range or relation. The "
-      "sensor's "
-      "constants, the same for all valves, stand in\n`spoolflow/model/describe_constants.hpp`; what runs show of each "
-      "number "
-      "in `spoolflow/model/tuning_evidence.csv`\n(`bench/tuning_evidence.py --update`).\n";
+      "`spoolflow/model/describe_observer.hpp` and its neighbours, which also read and write\nthe model file and "
+      "refuse "
+      "what lies outside of range or relation. The sensor's constants, the same for all valves, stand in\n"
+      "`spoolflow/sensor` where they are used; what runs show of each number in "
+      "`spoolflow/model/tuning_evidence.csv`\n(`bench/tuning_evidence.py --update`).\n";
   lines.heading("Valve");
   const model::Model model{};
   model::describe_valve(model.valve, lines);

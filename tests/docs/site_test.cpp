@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include "spoolflow/model/describe_condensed.hpp"
-#include "spoolflow/model/describe_constants.hpp"
 #include "spoolflow/model/describe_observer.hpp"
 #include "spoolflow/recording/channels/channel.hpp"
 #include "spoolflow/recording/channels/channel_unit.hpp"
@@ -155,29 +154,46 @@ TEST(Formats, NameEveryKeyOfTheCondensedSensor) {
   for (const std::string& key : keys.all) EXPECT_EQ(named.count(key), 1U) << key;
 }
 
-struct ConstantNames {
-  std::set<std::string> all;
-  void constant(const model::Constant& about, double /*value*/) { all.insert(about.name); }
+/// A constant of the sensor that is the same for all valves.
+struct SensorConstant {
+  std::string name, place;
+  bool explained;  ///< a comment stands above it, or above the constants that share it, or behind it
 };
 
-TEST(Parameters, NameEveryConstantOfTheSensor) {
-  ConstantNames named;
-  model::describe_constants(named);
-  const std::regex constant("inline constexpr (?:double|float|T) ([a-z]\\w*)");
-  std::vector<std::string> missing;
+/// All that spoolflow/sensor names; `type` is a regular expression.
+std::vector<SensorConstant> sensor_constants(const std::string& type) {
+  const std::regex constant("inline constexpr (?:" + type + ") ([a-z]\\w*)");
+  std::vector<SensorConstant> found;
   for (const auto& entry : fs::recursive_directory_iterator(root / "spoolflow/sensor")) {
     if (entry.path().extension() != ".hpp") continue;
     std::ifstream in(entry.path());
+    bool explained = false;
     for (std::string line; std::getline(in, line);) {
       std::smatch match;
-      if (std::regex_search(line, match, constant) && named.all.count(match[1]) == 0)
-        missing.push_back(in_project(entry.path()) + ": " + match[1].str());
+      if (line.starts_with("///")) {
+        explained = true;
+      } else if (std::regex_search(line, match, constant)) {
+        found.push_back({match[1], in_project(entry.path()), explained || line.find("///<") != std::string::npos});
+      } else if (!line.starts_with("inline constexpr") && !line.starts_with("template")) {
+        explained = false;
+      }
     }
   }
-  EXPECT_THAT(missing, IsEmpty());
+  return found;
 }
 
-/// Numbers that may have evidence: constants, and what the observer's description names.
+TEST(Parameters, EveryConstantOfTheSensorSaysWhatItIsAndHasItsEvidence) {
+  const auto evidence = read_tuning_evidence(root / "spoolflow/model/tuning_evidence.csv");
+  const std::vector<SensorConstant> constants = sensor_constants("double|float|T");
+  EXPECT_GE(constants.size(), 100U);
+  for (const SensorConstant& constant : constants) {
+    EXPECT_TRUE(constant.explained) << constant.place << ": " << constant.name << ": no comment";
+    EXPECT_EQ(evidence.count(constant.name), 1U)
+        << constant.place << ": " << constant.name << ": no row; bench/tuning_evidence.py --update writes it";
+  }
+}
+
+/// Numbers that may have evidence beside constants: what the observer's description names.
 struct Numbers {
   std::set<std::string> all;
   void number(const model::Parameter& about, double /*value*/) { all.insert(about.key); }
@@ -195,17 +211,13 @@ struct Numbers {
   void volume(const model::TableParameter& /*about*/, const Table& /*volume*/) {}
 };
 
-TEST(Parameters, HaveTheirEvidenceAndEvidenceItsParameter) {
-  const auto evidence = read_tuning_evidence(root / "spoolflow/model/tuning_evidence.csv");
-  ConstantNames constants;
-  model::describe_constants(constants);
-  for (const std::string& name : constants.all)
-    EXPECT_EQ(evidence.count(name), 1U) << name << ": no row; bench/tuning_evidence.py --update writes it";
+TEST(Parameters, EvidenceIsThatOfANumber) {
   Numbers numbers;
   const sensor::ObserverParameters<double> observer{};
   model::describe_observer(observer, numbers);
-  for (const auto& [name, text] : evidence)
-    EXPECT_TRUE(constants.all.count(name) == 1 || numbers.all.count(name) == 1) << name << ": evidence of no number";
+  for (const SensorConstant& constant : sensor_constants("\\w+")) numbers.all.insert(constant.name);
+  for (const auto& [name, text] : read_tuning_evidence(root / "spoolflow/model/tuning_evidence.csv"))
+    EXPECT_EQ(numbers.all.count(name), 1U) << name << ": evidence of no number";
 }
 
 TEST(TuningEvidence, IsRefusedWhereARowIsShortSaysNothingOrComesAgain) {
