@@ -7,53 +7,35 @@ namespace spoolflow::model {
 
 template <class Band, class Visitor>
 void describe_band(Band& band, Visitor& visitor) {
-  visitor.number({.key = "band_friction_share",
-                  .unit = "1",
-                  .limits = {0, 10},
-                  .meaning = "standard deviation of sliding friction about its map, as a share of it"},
-                 band.friction_share);
-  visitor.number({.key = "band_force_residual_N",
-                  .unit = "N",
-                  .limits = {1e-6, 1e4},
-                  .meaning = "standard deviation of all force maps together"},
-                 band.force_residual_N);
-  visitor.number({.key = "band_flow_residual_m3_per_s",
-                  .unit = "m3/s",
-                  .limits = {0, 1},
-                  .meaning = "standard deviation of the flow about its map"},
-                 band.flow_residual_m3_per_s);
-  visitor.number({.key = "band_coverage_factor",
-                  .unit = "1",
-                  .limits = {0.1, 100},
-                  .meaning = "standard deviations in the 95 % band"},
-                 band.coverage_factor);
-  visitor.number({.key = "band_force_share",
-                  .unit = "1",
-                  .limits = {1e-3, 10},
-                  .meaning = "how much of the forces' errors the band counts while the spool slides"},
-                 band.force_share);
-  visitor.number({.key = "band_rest_share",
-                  .unit = "1",
-                  .limits = {1e-3, 100},
-                  .meaning = "how much of the forces' errors the band counts while the spool rests"},
-                 band.rest_share);
   visitor.number(
-      {.key = "band_tolerance_N",
-       .unit = "N",
-       .limits = {0, 1e4},
-       .meaning = "how far friction at rest may lie outside of what the pre-sliding displacement bounds, one "
+      {"band_friction_share", "1", {0, 10}, "standard deviation of sliding friction about its map, as a share of it"},
+      band.friction_share);
+  visitor.number({"band_force_residual_N", "N", {1e-6, 1e4}, "standard deviation of all force maps together"},
+                 band.force_residual_N);
+  visitor.number({"band_flow_residual_m3_per_s", "m3/s", {0, 1}, "standard deviation of the flow about its map"},
+                 band.flow_residual_m3_per_s);
+  visitor.number({"band_coverage_factor", "1", {0.1, 100}, "standard deviations in the 95 % band"},
+                 band.coverage_factor);
+  visitor.number(
+      {"band_force_share", "1", {1e-3, 10}, "how much of the forces' errors the band counts while the spool slides"},
+      band.force_share);
+  visitor.number(
+      {"band_rest_share", "1", {1e-3, 100}, "how much of the forces' errors the band counts while the spool rests"},
+      band.rest_share);
+  visitor.number({"band_tolerance_N",
+                  "N",
+                  {0, 1e4},
+                  "how far friction at rest may lie outside of what the pre-sliding displacement bounds, one "
                   "standard deviation as the band counts it: friction_tolerance_N scaled by how the forces' "
                   "errors proved on operating recordings"},
-      band.tolerance_N);
-  visitor.number({.key = "band_creep_per_s",
-                  .unit = "1/s",
-                  .limits = {0, 10},
-                  .meaning = "growth of that tolerance with the time at rest, as a share of it"},
-                 band.creep_per_s);
-  visitor.number({.key = "band_unobserved_factor",
-                  .unit = "1",
-                  .limits = {1e-3, 100},
-                  .meaning = "standard deviation of unobserved changes of pressure over the most restless random walk"},
+                 band.tolerance_N);
+  visitor.number(
+      {"band_creep_per_s", "1/s", {0, 10}, "growth of that tolerance with the time at rest, as a share of it"},
+      band.creep_per_s);
+  visitor.number({"band_unobserved_factor",
+                  "1",
+                  {1e-3, 100},
+                  "standard deviation of unobserved changes of pressure over the most restless random walk"},
                  band.unobserved_factor);
 }
 

@@ -7,28 +7,21 @@ namespace spoolflow::model {
 /// visitor.number(Parameter, number or optional number) of each; `Valve` may be const.
 template <class Valve, class Visitor>
 void describe_valve(Valve& valve, Visitor&& visitor) {
-  visitor.number({.key = "rated_flow_m3_per_s",
-                  .unit = "m3/s",
-                  .limits = {1e-7, 1},
-                  .meaning = "full scale of every figure in percent"},
+  visitor.number({"rated_flow_m3_per_s", "m3/s", {1e-7, 1}, "full scale of every figure in percent"},
                  valve.rated_flow_m3_per_s);
-  visitor.number(
-      {.key = "stroke_m", .unit = "m", .limits = {1e-5, 0.1}, .meaning = "of the spool, from closed to open"},
-      valve.stroke_m);
-  visitor.number({.key = "load_area_ratio",
-                  .unit = "1",
-                  .limits = {0.1, 10},
-                  .meaning = "piston area at port A over that at port B; absent for equal flows over both edges"},
+  visitor.number({"stroke_m", "m", {1e-5, 0.1}, "of the spool, from closed to open"}, valve.stroke_m);
+  visitor.number({"load_area_ratio",
+                  "1",
+                  {0.1, 10},
+                  "piston area at port A over that at port B; absent for equal flows over both edges"},
                  valve.load_area_ratio);
-  visitor.number({.key = "open_stop_m",
-                  .unit = "m",
-                  .limits = {1e-5, 0.3},
-                  .meaning = "position where the spool meets its open stop; absent: none is known"},
-                 valve.open_stop_m);
-  visitor.number({.key = "moving_mass_kg",
-                  .unit = "kg",
-                  .limits = {1e-3, 100},
-                  .meaning = "spool, push rod and armature together; absent: found or assumed, see the observer"},
+  visitor.number(
+      {"open_stop_m", "m", {1e-5, 0.3}, "position where the spool meets its open stop; absent: none is known"},
+      valve.open_stop_m);
+  visitor.number({"moving_mass_kg",
+                  "kg",
+                  {1e-3, 100},
+                  "spool, push rod and armature together; absent: found or assumed, see the observer"},
                  valve.moving_mass_kg);
 }
 

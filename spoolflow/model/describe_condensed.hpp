@@ -73,32 +73,24 @@ void describe_condensed(Parameters& parameters, Visitor&& visitor) {
                  .columns = position_axis},
                 parameters.friction_half_width_N);
   describe_flow_rate(parameters.flow_rate, visitor);
-  visitor.number(
-      {.key = "closed_below_m", .unit = "m", .limits = {-1e-3, 0.1}, .meaning = "positions below this count as closed"},
-      parameters.closed_below_m);
-  visitor.number({.key = "force_residual_N",
-                  .unit = "N",
-                  .limits = {0, 1e4},
-                  .meaning = "standard deviation of the averaged forces about the maps"},
+  visitor.number({"closed_below_m", "m", {-1e-3, 0.1}, "positions below this count as closed"},
+                 parameters.closed_below_m);
+  visitor.number({"force_residual_N", "N", {0, 1e4}, "standard deviation of the averaged forces about the maps"},
                  parameters.force_residual_N);
-  visitor.number({.key = "flow_residual_m3_per_s",
-                  .unit = "m3/s",
-                  .limits = {0, 1},
-                  .meaning = "standard deviation of the flow about its map"},
+  visitor.number({"flow_residual_m3_per_s", "m3/s", {0, 1}, "standard deviation of the flow about its map"},
                  parameters.flow_residual_m3_per_s);
 }
 
 /// The same of what the step reads; calls visitor.number and visitor.table(what it is, numbers, numbers a record).
 template <class Tables, class Visitor>
 void describe_condensed_tables(Tables& tables, Visitor&& visitor) {
-  const auto number = [&](const char* key, const char* unit, Limits limits, const char* meaning, auto& value) {
-    visitor.number({.key = key, .unit = unit, .limits = limits, .meaning = meaning}, value);
-  };
-  number("cells_per_m", "1/m", {0, 1e9}, "position cells", tables.cells_per_m);
-  number("cells_per_A", "1/A", {0, 1e9}, "current cells", tables.cells_per_A);
-  number("closed_below_cells", "1", {-1e6, 1e6}, "positions below this count as closed", tables.closed_below_cells);
-  number("twice_the_flow_residual_m3_per_s", "m3/s", {0, 2}, "two standard deviations of the flow about its map",
-         tables.flow_residual_m3_per_s);
+  visitor.number({"cells_per_m", "1/m", {0, 1e9}, "position cells"}, tables.cells_per_m);
+  visitor.number({"cells_per_A", "1/A", {0, 1e9}, "current cells"}, tables.cells_per_A);
+  visitor.number({"closed_below_cells", "1", {-1e6, 1e6}, "positions below this count as closed"},
+                 tables.closed_below_cells);
+  visitor.number(
+      {"twice_the_flow_residual_m3_per_s", "m3/s", {0, 2}, "two standard deviations of the flow about its map"},
+      tables.flow_residual_m3_per_s);
   visitor.table("records of the position cells (a line each), as CondensedLayout has them", tables.records,
                 sensor::CondensedLayout::record);
 }

@@ -30,10 +30,7 @@ void describe_coil(Coil& coil, Visitor& visitor) {
                 .meaning = "flux change at which each stop of the magnetic hysteresis slides",
                 .relation = rises},
                hysteresis.threshold);
-  visitor.list({.key = "hysteresis_stiffness_A_per_Wb",
-                .unit = "A/Wb",
-                .limits = {0, 1e6},
-                .meaning = "current of each stop without flux"},
+  visitor.list({"hysteresis_stiffness_A_per_Wb", "A/Wb", {0, 1e6}, "current of each stop without flux"},
                hysteresis.stiffness);
   visitor.list({.key = "hysteresis_stiffness_increase_A_per_Wb",
                 .unit = "A/Wb",
@@ -41,51 +38,36 @@ void describe_coil(Coil& coil, Visitor& visitor) {
                 .meaning = "increase of that at full flux",
                 .relation = sum_not_negative("hysteresis_stiffness_A_per_Wb")},
                hysteresis.stiffness_increase);
-  visitor.number({.key = "hysteresis_per_full_flux_1_per_Wb",
-                  .unit = "1/Wb",
-                  .limits = {0, 1e6},
-                  .meaning = "one over the full flux"},
+  visitor.number({"hysteresis_per_full_flux_1_per_Wb", "1/Wb", {0, 1e6}, "one over the full flux"},
                  hysteresis.per_full_flux);
   auto& eddy_currents = coil.eddy_currents;
-  visitor.number({.key = "classical_eddy_current_A_per_V",
-                  .unit = "A/V",
-                  .limits = {0, 1e3},
-                  .meaning = "eddy currents in proportion to the rate of the flux"},
-                 eddy_currents.classical_A_per_V);
-  visitor.number({.key = "excess_eddy_current_A_per_rootV",
-                  .unit = "A/V(1/2)",
-                  .limits = {0, 1e3},
-                  .meaning = "eddy currents with the root of that rate"},
+  visitor.number(
+      {"classical_eddy_current_A_per_V", "A/V", {0, 1e3}, "eddy currents in proportion to the rate of the flux"},
+      eddy_currents.classical_A_per_V);
+  visitor.number({"excess_eddy_current_A_per_rootV", "A/V(1/2)", {0, 1e3}, "eddy currents with the root of that rate"},
                  eddy_currents.excess_A_per_rootV);
-  visitor.number({.key = "smallest_flux_rate_V",
-                  .unit = "V",
-                  .limits = {1e-9, 1e3},
-                  .meaning = "below it the excess eddy currents become proportional, too"},
-                 eddy_currents.smallest_rate_V);
+  visitor.number(
+      {"smallest_flux_rate_V", "V", {1e-9, 1e3}, "below it the excess eddy currents become proportional, too"},
+      eddy_currents.smallest_rate_V);
 }
 
 template <class Resistance, class Visitor>
 void describe_coil_resistance(Resistance& resistance, Visitor& visitor) {
-  visitor.number({.key = "coil_resistance_Ohm",
-                  .unit = "Ohm",
-                  .limits = {0, 1e4},
-                  .meaning = "coil resistance as calibrated, where following it begins; 0: not known"},
+  visitor.number({"coil_resistance_Ohm",
+                  "Ohm",
+                  {0, 1e4},
+                  "coil resistance as calibrated, where following it begins; 0: not known"},
                  resistance.resistance_Ohm);
-  visitor.number({.key = "coil_resistance_uncertainty_Ohm",
-                  .unit = "Ohm",
-                  .limits = {0, 1e4},
-                  .meaning = "one standard deviation of it"},
+  visitor.number({"coil_resistance_uncertainty_Ohm", "Ohm", {0, 1e4}, "one standard deviation of it"},
                  resistance.uncertainty_Ohm);
-  visitor.number({.key = "coil_resistance_drift_Ohm_per_root_s",
-                  .unit = "Ohm/s(1/2)",
-                  .limits = {0, 1e4},
-                  .meaning = "random walk of the coil's resistance, per root of a second"},
+  visitor.number({"coil_resistance_drift_Ohm_per_root_s",
+                  "Ohm/s(1/2)",
+                  {0, 1e4},
+                  "random walk of the coil's resistance, per root of a second"},
                  resistance.drift_Ohm_per_root_s);
-  visitor.number({.key = "voltage_noise_V_root_s",
-                  .unit = "V s(1/2)",
-                  .limits = {0, 1e3},
-                  .meaning = "noise density of the voltage about the coil's equation"},
-                 resistance.voltage_noise_V_root_s);
+  visitor.number(
+      {"voltage_noise_V_root_s", "V s(1/2)", {0, 1e3}, "noise density of the voltage about the coil's equation"},
+      resistance.voltage_noise_V_root_s);
 }
 
 template <class Actuator, class Visitor>
@@ -100,28 +82,22 @@ void describe_actuator(Actuator& actuator, Visitor& visitor) {
               actuator.friction_N);
   describe_coil(actuator.coil, visitor);
   describe_coil_resistance(actuator.coil_resistance, visitor);
-  visitor.number(
-      {.key = "coercive_current_A", .unit = "A", .limits = {0, 1e3}, .meaning = "half width of the coil's widest loop"},
-      actuator.coercive_current_A);
-  visitor.number({.key = "per_wiping_flux_1_per_Wb",
-                  .unit = "1/Wb",
-                  .limits = {0, 1e9},
-                  .meaning = "one over the flux swing after which older history does not matter"},
+  visitor.number({"coercive_current_A", "A", {0, 1e3}, "half width of the coil's widest loop"},
+                 actuator.coercive_current_A);
+  visitor.number({"per_wiping_flux_1_per_Wb",
+                  "1/Wb",
+                  {0, 1e9},
+                  "one over the flux swing after which older history does not matter"},
                  actuator.per_wiping_flux);
-  visitor.number({.key = "magnetic_force_uncertainty_N",
-                  .unit = "N",
-                  .limits = {0, 1e4},
-                  .meaning = "one standard deviation of the magnetic force at a known magnetising current"},
+  visitor.number({"magnetic_force_uncertainty_N",
+                  "N",
+                  {0, 1e4},
+                  "one standard deviation of the magnetic force at a known magnetising current"},
                  actuator.force_uncertainty_N);
-  visitor.number({.key = "magnetising_current_uncertainty_A",
-                  .unit = "A",
-                  .limits = {0, 10},
-                  .meaning = "one standard deviation of the magnetising current at rest"},
-                 actuator.current_uncertainty_A);
-  visitor.number({.key = "eddy_current_uncertainty",
-                  .unit = "1",
-                  .limits = {0, largest_eddy_uncertainty},
-                  .meaning = "its growth per eddy current"},
+  visitor.number(
+      {"magnetising_current_uncertainty_A", "A", {0, 10}, "one standard deviation of the magnetising current at rest"},
+      actuator.current_uncertainty_A);
+  visitor.number({"eddy_current_uncertainty", "1", {0, largest_eddy_uncertainty}, "its growth per eddy current"},
                  actuator.eddy_uncertainty);
 }
 
@@ -132,80 +108,55 @@ void describe_edge(Edge& edge, Visitor& visitor) {
   visitor.axis(oil_temperature_axis, edge.temperature_K, sensor::edge_temperatures);
   visitor.axis(pressure_difference_axis, edge.pressure_difference_Pa, sensor::edge_pressures);
   visitor.axis(position_axis, edge.position_m, sensor::edge_positions);
-  visitor.volume(
-      {.key = "flow_force_N", .unit = "N", .limits = {-1e4, 1e4}, .meaning = "steady flow force, closing > 0"},
-      edge.flow_force_N);
-  visitor.volume({.key = "spool_friction_N",
-                  .unit = "N",
-                  .limits = {0, 1e4},
-                  .meaning = "half width of the spool's friction while it slides"},
+  visitor.volume({"flow_force_N", "N", {-1e4, 1e4}, "steady flow force, closing > 0"}, edge.flow_force_N);
+  visitor.volume({"spool_friction_N", "N", {0, 1e4}, "half width of the spool's friction while it slides"},
                  edge.friction_N);
-  visitor.volume({.key = "conductance_m3_per_s_sqrt_Pa",
-                  .unit = "m3/s/Pa(1/2)",
-                  .limits = {-1e-3, 1e-2},
-                  .meaning = "flow rate over the root of the pressure difference"},
+  visitor.volume({"conductance_m3_per_s_sqrt_Pa",
+                  "m3/s/Pa(1/2)",
+                  {-1e-3, 1e-2},
+                  "flow rate over the root of the pressure difference"},
                  edge.conductance);
 }
 
 template <class Sensor, class Visitor>
 void describe_position_sensor(Sensor& sensor, Visitor& visitor) {
-  visitor.number({.key = "position_noise_m",
-                  .unit = "m",
-                  .limits = {0, 1e-3},
-                  .meaning = "standard deviation of one position sample"},
-                 sensor.noise_m);
-  visitor.number({.key = "position_backlash_m",
-                  .unit = "m",
-                  .limits = {0, 1e-3},
-                  .meaning = "half-width of unobserved creep of the spool"},
+  visitor.number({"position_noise_m", "m", {0, 1e-3}, "standard deviation of one position sample"}, sensor.noise_m);
+  visitor.number({"position_backlash_m", "m", {0, 1e-3}, "half-width of unobserved creep of the spool"},
                  sensor.backlash_m);
-  visitor.number({.key = "position_drift_m_per_K",
-                  .unit = "m/K",
-                  .limits = {-1e-4, 1e-4},
-                  .meaning = "drift of the position sensor's zero over oil temperature"},
-                 sensor.drift_m_per_K);
-  visitor.number({.key = "position_drift_free_K",
-                  .unit = "K",
-                  .limits = {0, 1e4},
-                  .meaning = "oil temperature at which the position sensor's zero is right"},
-                 sensor.drift_free_K);
-  visitor.number({.key = "hardest_acceleration_m_per_s2",
-                  .unit = "m/s2",
-                  .limits = {1e-3, 1e5},
-                  .meaning = "largest acceleration of the spool; a jump of the position beyond it is a signal fault"},
+  visitor.number(
+      {"position_drift_m_per_K", "m/K", {-1e-4, 1e-4}, "drift of the position sensor's zero over oil temperature"},
+      sensor.drift_m_per_K);
+  visitor.number(
+      {"position_drift_free_K", "K", {0, 1e4}, "oil temperature at which the position sensor's zero is right"},
+      sensor.drift_free_K);
+  visitor.number({"hardest_acceleration_m_per_s2",
+                  "m/s2",
+                  {1e-3, 1e5},
+                  "largest acceleration of the spool; a jump of the position beyond it is a signal fault"},
                  sensor.hardest_acceleration_m_per_s2);
 }
 
 template <class Friction, class Visitor>
 void describe_friction(Friction& friction, Visitor& visitor) {
-  visitor.number({.key = "friction_ageing_ratio",
-                  .unit = "1",
-                  .limits = {1, 20},
-                  .meaning = "the spool's friction after a long rest over its sliding friction"},
-                 friction.ageing_ratio);
   visitor.number(
-      {.key = "friction_ageing_s", .unit = "s", .limits = {1e-4, 1e4}, .meaning = "time constant of that growth"},
-      friction.ageing_s);
-  visitor.number({.key = "contact_stiffness_N_per_m",
-                  .unit = "N/m",
-                  .limits = {0, 1e10},
-                  .meaning = "stiffness of the contacts in pre-sliding"},
+      {"friction_ageing_ratio", "1", {1, 20}, "the spool's friction after a long rest over its sliding friction"},
+      friction.ageing_ratio);
+  visitor.number({"friction_ageing_s", "s", {1e-4, 1e4}, "time constant of that growth"}, friction.ageing_s);
+  visitor.number({"contact_stiffness_N_per_m", "N/m", {0, 1e10}, "stiffness of the contacts in pre-sliding"},
                  friction.contact_stiffness_N_per_m);
-  visitor.number({.key = "friction_tolerance_N",
-                  .unit = "N",
-                  .limits = {1e-6, 1e4},
-                  .meaning = "standard deviation of friction at rest about the pre-sliding friction, "
-                             "where pressure difference and friction share a force that does not fit"},
+  visitor.number({"friction_tolerance_N",
+                  "N",
+                  {1e-6, 1e4},
+                  "standard deviation of friction at rest about the pre-sliding friction, "
+                  "where pressure difference and friction share a force that does not fit"},
                  friction.tolerance_N);
-  visitor.number({.key = "breakaway_share",
-                  .unit = "1",
-                  .limits = {0, 10},
-                  .meaning = "standard deviation of the break-away force about ageing, as a share of it"},
-                 friction.breakaway_share);
-  visitor.number({.key = "operation_friction_ratio",
-                  .unit = "1",
-                  .limits = {sensor::least_friction_ratio, sensor::most_friction_ratio},
-                  .meaning = "friction in operation over half the width of the bench's loops, to begin with"},
+  visitor.number(
+      {"breakaway_share", "1", {0, 10}, "standard deviation of the break-away force about ageing, as a share of it"},
+      friction.breakaway_share);
+  visitor.number({"operation_friction_ratio",
+                  "1",
+                  {sensor::least_friction_ratio, sensor::most_friction_ratio},
+                  "friction in operation over half the width of the bench's loops, to begin with"},
                  friction.operation_ratio);
   visitor.number(
       {.key = "freeing_share",
@@ -218,15 +169,15 @@ void describe_friction(Friction& friction, Visitor& visitor) {
 
 template <class Pressure, class Visitor>
 void describe_pressure(Pressure& pressure, Visitor& visitor) {
-  visitor.number({.key = "sliding_drift_Pa_per_sqrt_s",
-                  .unit = "Pa/s(1/2)",
-                  .limits = {0, 1e9},
-                  .meaning = "random walk of the pressure difference while the spool slides"},
+  visitor.number({"sliding_drift_Pa_per_sqrt_s",
+                  "Pa/s(1/2)",
+                  {0, 1e9},
+                  "random walk of the pressure difference while the spool slides"},
                  pressure.sliding_drift_Pa_per_sqrt_s);
-  visitor.number({.key = "resting_drift_Pa_per_sqrt_s",
-                  .unit = "Pa/s(1/2)",
-                  .limits = {0, 1e9},
-                  .meaning = "random walk of the pressure difference while the spool rests"},
+  visitor.number({"resting_drift_Pa_per_sqrt_s",
+                  "Pa/s(1/2)",
+                  {0, 1e9},
+                  "random walk of the pressure difference while the spool rests"},
                  pressure.resting_drift_Pa_per_sqrt_s);
   visitor.number({.key = "least_process_noise",
                   .unit = "1",
@@ -234,32 +185,25 @@ void describe_pressure(Pressure& pressure, Visitor& visitor) {
                   .meaning = "process noise where the supply has proved steady, as a share of that walk's variance",
                   .relation = not_above("first_process_noise")},
                  pressure.least_process_noise);
-  visitor.number(
-      {.key = "first_process_noise",
-       .unit = "1",
-       .limits = {1e-6, 1},
-       .meaning = "process noise of a supply of which nothing is known yet, as a share of that walk's variance"},
-      pressure.first_process_noise);
-  visitor.number({.key = "force_correlation_s",
-                  .unit = "s",
-                  .limits = {1e-6, 10},
-                  .meaning = "correlation time of the errors of the forces"},
+  visitor.number({"first_process_noise",
+                  "1",
+                  {1e-6, 1},
+                  "process noise of a supply of which nothing is known yet, as a share of that walk's variance"},
+                 pressure.first_process_noise);
+  visitor.number({"force_correlation_s", "s", {1e-6, 10}, "correlation time of the errors of the forces"},
                  pressure.force_correlation_s);
-  visitor.number({.key = "friction_ratio_deviation",
-                  .unit = "1",
-                  .limits = {1e-3, 2},
-                  .meaning = "standard deviation of the friction ratio at any time"},
+  visitor.number({"friction_ratio_deviation", "1", {1e-3, 2}, "standard deviation of the friction ratio at any time"},
                  pressure.ratio_deviation);
-  visitor.number({.key = "friction_ratio_memory_s",
-                  .unit = "s",
-                  .limits = {1e-3, 1e6},
-                  .meaning = "time constant of sliding with which the friction ratio returns to the calibrated one"},
+  visitor.number({"friction_ratio_memory_s",
+                  "s",
+                  {1e-3, 1e6},
+                  "time constant of sliding with which the friction ratio returns to the calibrated one"},
                  pressure.ratio_memory_s);
-  visitor.number({.key = "constrained_correction_s",
-                  .unit = "s",
-                  .limits = {1e-5, 1e3},
-                  .meaning = "time constant of the constrained correction of the pressure difference by a force that "
-                             "friction at rest cannot explain"},
+  visitor.number({"constrained_correction_s",
+                  "s",
+                  {1e-5, 1e3},
+                  "time constant of the constrained correction of the pressure difference by a force that "
+                  "friction at rest cannot explain"},
                  pressure.constrained_correction_s);
 }
 
@@ -304,19 +248,15 @@ void describe_observer(Parameters& parameters, Visitor&& visitor) {
                   .meaning = "spool, push rod and armature together",
                   .otherwise = 0.11},
                  parameters.moving_mass_kg);
-  visitor.number(
-      {.key = "closed_below_m", .unit = "m", .limits = {-1e-3, 0.1}, .meaning = "positions below this count as closed"},
-      parameters.closed_below_m);
+  visitor.number({"closed_below_m", "m", {-1e-3, 0.1}, "positions below this count as closed"},
+                 parameters.closed_below_m);
   visitor.number({.key = "stopped_above_m",
                   .unit = "m",
                   .limits = {0, 2 * sensor::no_open_stop_m},
                   .meaning = "positions above this count as on the open stop; about 1: none is known",
                   .otherwise = sensor::no_open_stop_m},
                  parameters.stopped_above_m);
-  visitor.number({.key = "largest_current_A",
-                  .unit = "A",
-                  .limits = {0, 1e3},
-                  .meaning = "currents above this count as saturated"},
+  visitor.number({"largest_current_A", "A", {0, 1e3}, "currents above this count as saturated"},
                  parameters.largest_current_A);
   visitor.number({.key = "largest_voltage_V",
                   .unit = "V",
