@@ -2,6 +2,7 @@
 /// The members of plain structures, found by the compiler.
 #include <array>
 #include <cstddef>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -34,108 +35,45 @@ inline constexpr bool is_array = false;
 template <class Element, std::size_t size>
 inline constexpr bool is_array<std::array<Element, size>> = true;
 
-/// One case for each number of members, which the language asks for.
-template <std::size_t count, class Object, class Visit>
-constexpr void visit_1_to_8(Object& object, const Visit& visit) {
-  if constexpr (count == 1) {
-    auto& [a] = object;
-    (visit(a));
-  } else if constexpr (count == 2) {
-    auto& [a, b] = object;
-    (visit(a), visit(b));
-  } else if constexpr (count == 3) {
-    auto& [a, b, c] = object;
-    (visit(a), visit(b), visit(c));
-  } else if constexpr (count == 4) {
-    auto& [a, b, c, d] = object;
-    (visit(a), visit(b), visit(c), visit(d));
-  } else if constexpr (count == 5) {
-    auto& [a, b, c, d, e] = object;
-    (visit(a), visit(b), visit(c), visit(d), visit(e));
-  } else if constexpr (count == 6) {
-    auto& [a, b, c, d, e, f] = object;
-    (visit(a), visit(b), visit(c), visit(d), visit(e), visit(f));
-  } else if constexpr (count == 7) {
-    auto& [a, b, c, d, e, f, g] = object;
-    (visit(a), visit(b), visit(c), visit(d), visit(e), visit(f), visit(g));
-  } else if constexpr (count == 8) {
-    auto& [a, b, c, d, e, f, g, h] = object;
-    (visit(a), visit(b), visit(c), visit(d), visit(e), visit(f), visit(g), visit(h));
-  }
-}
+template <std::size_t count>
+using Count = std::integral_constant<std::size_t, count>;
 
-template <std::size_t count, class Object, class Visit>
-constexpr void visit_9_to_16(Object& object, const Visit& visit) {
-  if constexpr (count == 9) {
-    auto& [a, b, c, d, e, f, g, h, i] = object;
-    (visit(a), visit(b), visit(c), visit(d), visit(e), visit(f), visit(g), visit(h), visit(i));
-  } else if constexpr (count == 10) {
-    auto& [a, b, c, d, e, f, g, h, i, j] = object;
-    (visit(a), visit(b), visit(c), visit(d), visit(e), visit(f), visit(g), visit(h), visit(i), visit(j));
-  } else if constexpr (count == 11) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k] = object;
-    (visit(a), visit(b), visit(c), visit(d), visit(e), visit(f), visit(g), visit(h), visit(i), visit(j), visit(k));
-  } else if constexpr (count == 12) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l] = object;
-    (visit(a), visit(b), visit(c), visit(d), visit(e), visit(f), visit(g), visit(h), visit(i), visit(j), visit(k),
-     visit(l));
-  } else if constexpr (count == 13) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = object;
-    (visit(a), visit(b), visit(c), visit(d), visit(e), visit(f), visit(g), visit(h), visit(i), visit(j), visit(k),
-     visit(l), visit(m));
-  } else if constexpr (count == 14) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = object;
-    (visit(a), visit(b), visit(c), visit(d), visit(e), visit(f), visit(g), visit(h), visit(i), visit(j), visit(k),
-     visit(l), visit(m), visit(n));
-  } else if constexpr (count == 15) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = object;
-    (visit(a), visit(b), visit(c), visit(d), visit(e), visit(f), visit(g), visit(h), visit(i), visit(j), visit(k),
-     visit(l), visit(m), visit(n), visit(o));
-  } else if constexpr (count == 16) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = object;
-    (visit(a), visit(b), visit(c), visit(d), visit(e), visit(f), visit(g), visit(h), visit(i), visit(j), visit(k),
-     visit(l), visit(m), visit(n), visit(o), visit(p));
-  }
+/// References to the members: one function for each number of them, which the language asks for.
+template <class Object>
+constexpr auto members_of(Object& /*object*/, Count<0> /*count*/) {
+  return std::tie();
 }
-
-template <std::size_t count, class Object, class Visit>
-constexpr void visit_17_to_24(Object& object, const Visit& visit) {
-  if constexpr (count == 17) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q] = object;
-    (visit(a), visit(b), visit(c), visit(d), visit(e), visit(f), visit(g), visit(h), visit(i), visit(j), visit(k),
-     visit(l), visit(m), visit(n), visit(o), visit(p), visit(q));
-  } else if constexpr (count == 18) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = object;
-    (visit(a), visit(b), visit(c), visit(d), visit(e), visit(f), visit(g), visit(h), visit(i), visit(j), visit(k),
-     visit(l), visit(m), visit(n), visit(o), visit(p), visit(q), visit(r));
-  } else if constexpr (count == 19) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s] = object;
-    (visit(a), visit(b), visit(c), visit(d), visit(e), visit(f), visit(g), visit(h), visit(i), visit(j), visit(k),
-     visit(l), visit(m), visit(n), visit(o), visit(p), visit(q), visit(r), visit(s));
-  } else if constexpr (count == 20) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t] = object;
-    (visit(a), visit(b), visit(c), visit(d), visit(e), visit(f), visit(g), visit(h), visit(i), visit(j), visit(k),
-     visit(l), visit(m), visit(n), visit(o), visit(p), visit(q), visit(r), visit(s), visit(t));
-  } else if constexpr (count == 21) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u] = object;
-    (visit(a), visit(b), visit(c), visit(d), visit(e), visit(f), visit(g), visit(h), visit(i), visit(j), visit(k),
-     visit(l), visit(m), visit(n), visit(o), visit(p), visit(q), visit(r), visit(s), visit(t), visit(u));
-  } else if constexpr (count == 22) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v] = object;
-    (visit(a), visit(b), visit(c), visit(d), visit(e), visit(f), visit(g), visit(h), visit(i), visit(j), visit(k),
-     visit(l), visit(m), visit(n), visit(o), visit(p), visit(q), visit(r), visit(s), visit(t), visit(u), visit(v));
-  } else if constexpr (count == 23) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w] = object;
-    (visit(a), visit(b), visit(c), visit(d), visit(e), visit(f), visit(g), visit(h), visit(i), visit(j), visit(k),
-     visit(l), visit(m), visit(n), visit(o), visit(p), visit(q), visit(r), visit(s), visit(t), visit(u), visit(v),
-     visit(w));
-  } else if constexpr (count == 24) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x] = object;
-    (visit(a), visit(b), visit(c), visit(d), visit(e), visit(f), visit(g), visit(h), visit(i), visit(j), visit(k),
-     visit(l), visit(m), visit(n), visit(o), visit(p), visit(q), visit(r), visit(s), visit(t), visit(u), visit(v),
-     visit(w), visit(x));
+#define SPOOLFLOW_MEMBERS(count, ...)                       \
+  template <class Object>                                   \
+  constexpr auto members_of(Object& object, Count<count>) { \
+    auto& [__VA_ARGS__] = object;                           \
+    return std::tie(__VA_ARGS__);                           \
   }
-}
+SPOOLFLOW_MEMBERS(1, a)
+SPOOLFLOW_MEMBERS(2, a, b)
+SPOOLFLOW_MEMBERS(3, a, b, c)
+SPOOLFLOW_MEMBERS(4, a, b, c, d)
+SPOOLFLOW_MEMBERS(5, a, b, c, d, e)
+SPOOLFLOW_MEMBERS(6, a, b, c, d, e, f)
+SPOOLFLOW_MEMBERS(7, a, b, c, d, e, f, g)
+SPOOLFLOW_MEMBERS(8, a, b, c, d, e, f, g, h)
+SPOOLFLOW_MEMBERS(9, a, b, c, d, e, f, g, h, i)
+SPOOLFLOW_MEMBERS(10, a, b, c, d, e, f, g, h, i, j)
+SPOOLFLOW_MEMBERS(11, a, b, c, d, e, f, g, h, i, j, k)
+SPOOLFLOW_MEMBERS(12, a, b, c, d, e, f, g, h, i, j, k, l)
+SPOOLFLOW_MEMBERS(13, a, b, c, d, e, f, g, h, i, j, k, l, m)
+SPOOLFLOW_MEMBERS(14, a, b, c, d, e, f, g, h, i, j, k, l, m, n)
+SPOOLFLOW_MEMBERS(15, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o)
+SPOOLFLOW_MEMBERS(16, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p)
+SPOOLFLOW_MEMBERS(17, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q)
+SPOOLFLOW_MEMBERS(18, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r)
+SPOOLFLOW_MEMBERS(19, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s)
+SPOOLFLOW_MEMBERS(20, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t)
+SPOOLFLOW_MEMBERS(21, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u)
+SPOOLFLOW_MEMBERS(22, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v)
+SPOOLFLOW_MEMBERS(23, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w)
+SPOOLFLOW_MEMBERS(24, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x)
+#undef SPOOLFLOW_MEMBERS
 
 }  // namespace detail
 
@@ -148,16 +86,7 @@ template <Structure Object, class Visit>
 constexpr void for_each_member(Object& object, const Visit& visit) {
   constexpr std::size_t count = detail::member_count<std::remove_const_t<Object>>();
   static_assert(count <= 24);
-  if constexpr (count == 0) {
-    (void)object;
-    (void)visit;
-  } else if constexpr (count <= 8) {
-    detail::visit_1_to_8<count>(object, visit);
-  } else if constexpr (count <= 16) {
-    detail::visit_9_to_16<count>(object, visit);
-  } else {
-    detail::visit_17_to_24<count>(object, visit);
-  }
+  std::apply([&visit](auto&... member) { (visit(member), ...); }, detail::members_of(object, detail::Count<count>{}));
 }
 
 /// `visit(number)` for each number, enumerator and pointer within, however deep.
