@@ -21,7 +21,7 @@
 #include "spoolflow/rig/bench/virtual_campaign.hpp"
 #include "spoolflow/rig/electronics/electronics.hpp"
 #include "spoolflow/rig/instruments/coil_panel.hpp"
-#include "spoolflow/rig/plant/winding_current.hpp"
+#include "spoolflow/rig/plant/solenoid.hpp"
 
 namespace {
 

@@ -26,8 +26,8 @@ template <class T>
 /// proportion to the way from the closed stop. Turns, n the share that is left: a current makes n times the
 /// ampere-turns, so that force, flux linkage, hysteresis and eddy currents are those of n times the current, with n
 /// times the flux linkage of each flux; what is shorted is a further eddy current, s/(n^2 R) amperes per volt of flux
-/// rate (rig/plant/coil.hpp has the same circuit); the resistance falls to n. Position zero: all maps' positions move
-/// by it. Omits what wear does to ageing at rest and to the contacts' stiffness.
+/// rate (rig/plant/solenoid.hpp has the same circuit); the resistance falls to n. Position zero: all maps' positions
+/// move by it. Omits what wear does to ageing at rest and to the contacts' stiffness.
 void apply(const Difference& difference, double stroke_m, sensor::ObserverParameters<double>& valve);
 
 /// The same of the condensed sensor's averaged maps. Their axes begin at zero: a shift is interpolated.

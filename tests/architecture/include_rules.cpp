@@ -59,7 +59,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 35> library_
     {"pthread.h", "POSIX"},
 }};
 
-/// As the table names it: "rig/plant" of "spoolflow/rig/plant/coil.hpp", "addons/live" of "addons/live/engine.hpp".
+/// As the table names it: "rig/plant" of "spoolflow/rig/plant/solenoid.hpp", "addons/live" of "addons/live/engine.hpp".
 std::string folder_of(const fs::path& place) {
   const fs::path folder = place.parent_path();
   return (*place.begin() == "addons" ? folder : folder.lexically_relative("spoolflow")).generic_string();

@@ -16,7 +16,7 @@
 #include "spoolflow/numerics/number_check.hpp"
 #include "spoolflow/numerics/padding.hpp"
 #include "spoolflow/rig/instruments/coil_panel.hpp"
-#include "spoolflow/rig/plant/winding_current.hpp"
+#include "spoolflow/rig/plant/solenoid.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::exports::fmu {

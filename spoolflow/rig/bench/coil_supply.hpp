@@ -6,7 +6,7 @@
 #include "spoolflow/rig/bench/valve_under_test.hpp"
 #include "spoolflow/rig/electronics/electronics.hpp"
 #include "spoolflow/rig/instruments/lvdt.hpp"
-#include "spoolflow/rig/plant/winding_current.hpp"
+#include "spoolflow/rig/plant/solenoid.hpp"
 
 namespace spoolflow::rig {
 

@@ -3,9 +3,8 @@
 /// Oil, leakage, tank pressure, wear of friction and errors of position sensor and thermometer are figures of plant and
 /// instruments, and scenarios set them there.
 #include "spoolflow/rig/hydraulics/actuator_end.hpp"
-#include "spoolflow/rig/hydraulics/pump_ripple.hpp"
-#include "spoolflow/rig/instruments/current_spikes.hpp"
-#include "spoolflow/rig/instruments/pwm_ripple.hpp"
+#include "spoolflow/rig/hydraulics/supply.hpp"
+#include "spoolflow/rig/instruments/coil_panel.hpp"
 #include "spoolflow/rig/instruments/vibration.hpp"
 
 namespace spoolflow::rig {

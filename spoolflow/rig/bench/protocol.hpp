@@ -5,10 +5,9 @@
 #include <variant>
 #include <vector>
 
-#include "spoolflow/rig/bench/axial_force_protocol.hpp"
-#include "spoolflow/rig/bench/flow_bench_protocol.hpp"
 #include "spoolflow/rig/bench/operation_protocols.hpp"
 #include "spoolflow/rig/bench/solenoid_protocols.hpp"
+#include "spoolflow/rig/bench/stroke_protocols.hpp"
 #include "spoolflow/rig/bench/valve_under_test.hpp"
 
 namespace spoolflow::rig {

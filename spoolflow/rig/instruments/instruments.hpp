@@ -1,11 +1,8 @@
 #pragma once
 /// All instruments of valve and benches with their error figures.
-#include "spoolflow/rig/instruments/coil_measurement.hpp"
 #include "spoolflow/rig/instruments/flow_meter.hpp"
-#include "spoolflow/rig/instruments/load_cell.hpp"
 #include "spoolflow/rig/instruments/lvdt.hpp"
-#include "spoolflow/rig/instruments/pressure_sensor.hpp"
-#include "spoolflow/rig/instruments/thermometer.hpp"
+#include "spoolflow/rig/instruments/transducer.hpp"
 
 namespace spoolflow::rig {
 

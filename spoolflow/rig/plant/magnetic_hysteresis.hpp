@@ -1,6 +1,6 @@
 #pragma once
 /// The solenoid's iron: field over flux density with memory, by one of two models of hysteresis. Both take the flux
-/// density as input, leave out rates (eddy_currents.hpp has them) and share nothing with the sensor's stop operators.
+/// density as input, leave out rates (solenoid.hpp has them) and share nothing with the sensor's stop operators.
 #include "spoolflow/rig/numerics/parameter.hpp"
 #include "spoolflow/rig/plant/jiles_atherton.hpp"
 #include "spoolflow/rig/plant/magnetic_material.hpp"

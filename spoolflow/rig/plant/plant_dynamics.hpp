@@ -4,8 +4,8 @@
 /// Differential states are {x, v}, three of each solenoid, six of the hydraulics. The memories (iron hysteresis,
 /// friction elements, contact ages) are functions of flux and displacement since the step's start; temperatures move
 /// once a step.
-#include "spoolflow/rig/plant/end_stop.hpp"
 #include "spoolflow/rig/plant/plant_constants.hpp"
+#include "spoolflow/rig/plant/spool.hpp"
 
 namespace spoolflow::rig {
 

@@ -1,4 +1,4 @@
-#include "spoolflow/rig/bench/axial_force_protocol.hpp"
+#include "spoolflow/rig/bench/stroke_protocols.hpp"
 
 #include "spoolflow/units/conversion.hpp"
 
@@ -32,6 +32,34 @@ BenchRun plan(const AxialForceProtocol& protocol, double stroke_m) {
                   Channel::position,
                   Channel::axial_force,
                   Channel::flow};
+  return run;
+}
+
+FlowBenchProtocol unpressurised_protocol() {
+  return {.pressure_differences_bar = {0, 0}, .fast_rate_percent_per_s = 50, .sample_rate_Hz = 1000};
+}
+
+BenchRun plan(const FlowBenchProtocol& protocol) {
+  BenchRun run;
+  run.valve_dithers = false;  // strokes are sampled too slowly to resolve it
+  if (protocol.edges) run.load = load_of(*protocol.edges);
+  const auto stroke = [&](double level_bar, double rate_percent_per_s) {
+    const double from_s = run.position_set.duration_s(), rate_per_s = rate_percent_per_s / 100;
+    run.position_set.hold(protocol.hold_s)
+        .ramp_at(1, rate_per_s)
+        .hold(protocol.hold_s)
+        .ramp_at(0, rate_per_s)
+        .hold(protocol.hold_s);
+    run.pressure_difference_Pa.step_to(units::Pa_from_bar(level_bar)).hold(run.position_set.duration_s() - from_s);
+  };
+  for (const double level_bar : protocol.pressure_differences_bar) stroke(level_bar, protocol.rate_percent_per_s);
+  if (protocol.fast_rate_percent_per_s > 0)
+    stroke(protocol.pressure_differences_bar.back(), protocol.fast_rate_percent_per_s);
+  run.last_for({.duration_s = run.position_set.duration_s(),
+                .sample_rate_Hz = protocol.sample_rate_Hz,
+                .oil_temperature_start_C = protocol.oil_temperature_C,
+                .oil_temperature_end_C = protocol.oil_temperature_C + protocol.temperature_rise_K});
+  run.channels = metered_channels();
   return run;
 }
 
