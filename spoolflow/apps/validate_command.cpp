@@ -14,7 +14,7 @@
 #include "spoolflow/apps/terminal/progress.hpp"
 #include "spoolflow/apps/terminal/suggestion.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
-#include "spoolflow/apps/work/band_notes.hpp"
+#include "spoolflow/apps/work/notes.hpp"
 #include "spoolflow/calibration/environment.hpp"
 #include "spoolflow/report/json/metrics_json.hpp"
 #include "spoolflow/report/validation/requirements_table.hpp"

@@ -8,8 +8,8 @@
 
 #include "spoolflow/apps/work/estimate_table.hpp"
 #include "spoolflow/apps/work/inspection_text.hpp"
+#include "spoolflow/apps/work/notes.hpp"
 #include "spoolflow/apps/work/readable_model.hpp"
-#include "spoolflow/apps/work/reading_notes.hpp"
 #include "spoolflow/calibration/calibrate.hpp"
 #include "spoolflow/estimation/columns.hpp"
 #include "spoolflow/estimation/estimator.hpp"

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "spoolflow/apps/work/harmless_text.hpp"
-#include "spoolflow/apps/work/reading_notes.hpp"
+#include "spoolflow/apps/work/notes.hpp"
+#include "spoolflow/recording/channels/channel_unit.hpp"
 #include "spoolflow/recording/proposal.hpp"
-#include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::apps {
 namespace {
@@ -19,39 +19,8 @@ void add(std::string& out, fmt::format_string<detail::Harmless<Values>...> forma
   out += fmt::format(format, detail::harmless(values)...);
 }
 
-/// The unit that people read a channel in.
-struct ShownUnit {
-  const char* name;
-  double per_SI;
-  double offset;
-};
-
-ShownUnit shown_unit(recording::Channel channel) {
-  using units::Dimension;
-  switch (recording::dimension(channel)) {
-    case Dimension::time:
-      return {"s", 1, 0};
-    case Dimension::current:
-      return {"A", 1, 0};
-    case Dimension::voltage:
-      return {"V", 1, 0};
-    case Dimension::length:
-      return {"mm", units::millimetre_per_metre, 0};
-    case Dimension::ratio:
-      if (channel == recording::Channel::test) return {"", 1, 0};
-      return {"percent", 100, 0};
-    case Dimension::force:
-      return {"N", 1, 0};
-    case Dimension::pressure:
-      return {"bar", 1 / units::pascal_per_bar, 0};
-    case Dimension::temperature:
-      return {"C", 1, -units::kelvin_at_0_degC};
-    case Dimension::volume_flow:
-      return {"L/min", units::litre_per_minute_per_m3_per_s, 0};
-    default:
-      break;
-  }
-  return {"", 1, 0};
+double in_unit(const units::Unit& unit, double value_SI) {
+  return (value_SI - unit.offset) * (1 / unit.factor);
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -179,8 +148,8 @@ void add_text(std::string& out, const InspectedFile& inspected) {
     add(out, "\n{:<24} {:<8} {:>12} {:>12} {:>12} {:>9} {:>9}\n", "channel", "unit", "lowest", "mean", "highest",
         "missing", "clipped");
     for (const recording::ChannelSummary& summary : found.channels) {
-      const ShownUnit unit = shown_unit(summary.channel);
-      const auto shown = [&](double value) { return value * unit.per_SI + unit.offset; };
+      const units::Unit unit = recording::usual_unit(summary.channel);
+      const auto shown = [&](double value) { return in_unit(unit, value); };
       add(out, "{:<24} {:<8} {:>12.5g} {:>12.5g} {:>12.5g} {:>9} {:>8.2f}%\n", recording::name(summary.channel),
           unit.name, shown(summary.lowest), shown(summary.mean), shown(summary.highest), summary.missing,
           100 * summary.clipped);
@@ -276,8 +245,8 @@ void add_json(std::string& out, const recording::Inspection& found, const std::s
   }
   add(out, "],\n \"channels\": [");
   for (const recording::ChannelSummary& summary : found.channels) {
-    const ShownUnit unit = shown_unit(summary.channel);
-    const auto shown = [&](double value) { return json_number(value * unit.per_SI + unit.offset); };
+    const units::Unit unit = recording::usual_unit(summary.channel);
+    const auto shown = [&](double value) { return json_number(in_unit(unit, value)); };
     add(out,
         "{}\n  {{\"channel\": \"{}\", \"unit\": \"{}\", \"lowest\": {}, \"mean\": {}, \"highest\": {}, \"missing\": "
         "{}, "

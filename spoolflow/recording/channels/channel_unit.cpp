@@ -21,6 +21,11 @@ std::vector<std::string> unit_names(Channel channel) {
   return out;
 }
 
+units::Unit usual_unit(Channel channel) {
+  if (channel == Channel::test) return {"", "", units::Dimension::ratio, 1};
+  return *units::unit_named(channel == Channel::position_set ? "percent" : unit_names(channel).front());
+}
+
 units::Unit channel_unit(Channel channel, std::string_view written, std::optional<double> stroke_m,
                          const std::string& place) {
   const std::vector<std::string> allowed = unit_names(channel);

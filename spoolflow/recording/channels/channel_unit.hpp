@@ -15,6 +15,10 @@ namespace spoolflow::recording {
 [[nodiscard]] units::Unit channel_unit(Channel channel, std::string_view written, std::optional<double> stroke_m,
                                        const std::string& place);
 
+/// The unit that people have the channel in, and the rig writes it in: "bar", "mm", "percent"; of `test`, which counts,
+/// one without a name.
+[[nodiscard]] units::Unit usual_unit(Channel channel);
+
 /// The names of the channel's units, the most usual first: "bar", "mbar", "Pa" and so on.
 [[nodiscard]] std::vector<std::string> unit_names(Channel channel);
 

@@ -1,78 +1,47 @@
 #include "spoolflow/rig/bench/recording_file.hpp"
 
 #include <ostream>
-#include <string_view>
+#include <string>
+#include <utility>
 
+#include "spoolflow/recording/channels/channel_unit.hpp"
 #include "spoolflow/recording/files/csv_writer.hpp"
-#include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::rig {
 namespace {
 
 using recording::Channel;
 
-/// written = scale * SI + offset
+/// As a recorder writes a channel.
 struct Column {
-  std::string_view header;
+  std::string header;
   int decimals;
   double scale;
-  double offset;
+  double offset;  ///< written = scale * SI + offset
 };
 
-Column column(Channel channel, bool several_rates) {
-  constexpr double per_Pa = 1 / units::pascal_per_bar;
-  constexpr double per_m3_per_s = units::litre_per_minute_per_m3_per_s;
-  switch (channel) {
-    case Channel::time:
-      return {"time_s", several_rates ? 5 : 4, 1, 0};
-    case Channel::current:
-      return {"current_A", 5, 1, 0};
-    case Channel::current_set:
-      return {"current_set_A", 3, 1, 0};
-    case Channel::voltage:
-      return {"voltage_V", 3, 1, 0};
-    case Channel::position:
-      return {"position_mm", 5, units::millimetre_per_metre, 0};
-    case Channel::position_set:
-      return {"position_set_percent", 3, 100, 0};
-    case Channel::force:
-      return {"force_N", 3, 1, 0};
-    case Channel::axial_force:
-      return {"axial_force_N", 3, 1, 0};
-    case Channel::pressure_upstream:
-      return {"pressure_upstream_bar", 3, per_Pa, 0};
-    case Channel::pressure_downstream:
-      return {"pressure_downstream_bar", 3, per_Pa, 0};
-    case Channel::pressure_difference:
-      return {"pressure_difference_bar", 3, per_Pa, 0};
-    case Channel::pressure_difference_set:
-      return {"pressure_difference_set_bar", 1, per_Pa, 0};
-    case Channel::oil_temperature:
-      return {"oil_temperature_C", 2, 1, -units::kelvin_at_0_degC};
-    case Channel::flow:
-      return {"flow_L_min", 3, per_m3_per_s, 0};
-    case Channel::flow_reference:
-      return {"flow_reference_L_min", 3, per_m3_per_s, 0};
-    case Channel::test:
-      return {"test", 0, 1, 0};
-    case Channel::current_a:
-      return {"current_a_A", 5, 1, 0};
-    case Channel::current_b:
-      return {"current_b_A", 5, 1, 0};
-    case Channel::voltage_a:
-      return {"voltage_a_V", 3, 1, 0};
-    case Channel::voltage_b:
-      return {"voltage_b_V", 3, 1, 0};
-    case Channel::pressure_p:
-      return {"pressure_p_bar", 3, per_Pa, 0};
-    case Channel::pressure_a:
-      return {"pressure_a_bar", 3, per_Pa, 0};
-    case Channel::pressure_b:
-      return {"pressure_b_bar", 3, per_Pa, 0};
-    case Channel::pressure_t:
-      return {"pressure_t_bar", 3, per_Pa, 0};
+int decimals(Channel channel, bool several_rates) {
+  using units::Dimension;
+  if (channel == Channel::pressure_difference_set) return 1;
+  if (channel == Channel::time) return several_rates ? 5 : 4;
+  if (channel == Channel::current_set) return 3;
+  if (channel == Channel::test) return 0;
+  switch (recording::dimension(channel)) {
+    case Dimension::current:
+    case Dimension::length:
+      return 5;
+    case Dimension::temperature:
+      return 2;
+    default:
+      return 3;
   }
-  return {"", 0, 1, 0};
+}
+
+Column column(Channel channel, bool several_rates) {
+  const units::Unit unit = recording::usual_unit(channel);
+  std::string header(recording::name(channel));
+  if (!unit.header.empty()) header.append("_").append(unit.header);
+  return {std::move(header), decimals(channel, several_rates), 1 / unit.factor, -unit.offset / unit.factor};
 }
 
 }  // namespace
