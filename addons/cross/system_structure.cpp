@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "spoolflow/export/fmu/number_text.hpp"
-#include "spoolflow/export/fmu_units.hpp"
 #include "spoolflow/export/fmu_words.hpp"
 #include "spoolflow/export/xml_text.hpp"
 #include "spoolflow/export/zip_archive.hpp"

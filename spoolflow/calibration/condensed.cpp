@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "spoolflow/calibration/edges/flow_rate_fit.hpp"
-#include "spoolflow/calibration/edges/sensitivity.hpp"
 #include "spoolflow/calibration/edges/uniqueness.hpp"
 #include "spoolflow/calibration/fits/magnetic_force_fit.hpp"
 #include "spoolflow/calibration/fits/spring_fit.hpp"

@@ -3,7 +3,6 @@
 
 #include "spoolflow/export/fmu/number_text.hpp"
 #include "spoolflow/export/fmu_content.hpp"
-#include "spoolflow/export/fmu_units.hpp"
 #include "spoolflow/export/fmu_words.hpp"
 #include "spoolflow/export/xml_text.hpp"
 
