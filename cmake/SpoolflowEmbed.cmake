@@ -1,6 +1,6 @@
 # spoolflow_embed(TARGET NAMESPACE FUNCTION file…): the files' bytes become part of the target, so that the program needs
-# no files beside it. The header spoolflow/…/FUNCTION.hpp declares, in NAMESPACE, `std::span<const EmbeddedFile> FUNCTION()`
-# with EmbeddedFile{name, bytes}; the definition is made here. The assembler reads the files, not the compiler. A file is
+# no files beside it. The header embedded_files.hpp of the folder, or FUNCTION.hpp where it has none, declares, in NAMESPACE,
+# `std::span<const EmbeddedFile> FUNCTION()` with EmbeddedFile{name, bytes}; the definition is made here. The assembler reads the files, not the compiler. A file is
 # named without its folder; after RELATIVE FOLDER, by its path from there.
 function(spoolflow_embed target namespace function)
   set(base "")
@@ -9,7 +9,10 @@ function(spoolflow_embed target namespace function)
     list(REMOVE_AT ARGN 0 1)
   endif()
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
-  set(header ${folder}/${function}.hpp)
+  set(header ${folder}/embedded_files.hpp)
+  if(NOT EXISTS ${PROJECT_SOURCE_DIR}/${header})
+    set(header ${folder}/${function}.hpp)
+  endif()
   set(blobs "")
   set(entries "")
   set(paths "")

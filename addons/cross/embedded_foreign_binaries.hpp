@@ -1,7 +1,7 @@
 #pragma once
 #include <span>
 
-#include "spoolflow/export/embedded_file.hpp"
+#include "spoolflow/export/embedded_files.hpp"
 
 namespace spoolflow::exports {
 

@@ -1,4 +1,5 @@
 /// `spoolflow plan`: the strokes after which a unit is known best in the time that there is.
+#include <cmath>
 #include <memory>
 #include <string>
 
@@ -10,8 +11,9 @@
 #include "spoolflow/apps/terminal/output_file.hpp"
 #include "spoolflow/apps/terminal/suggestion.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
-#include "spoolflow/apps/work/expected_band.hpp"
 #include "spoolflow/calibration/type/plan_minute.hpp"
+#include "spoolflow/estimation/running_sensor.hpp"
+#include "spoolflow/uncertainty/operating_point.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::apps {
@@ -49,6 +51,33 @@ void write_scenario(std::ostream& out, const calibration::PlannedMinute& minute,
       valve, pressures_bar(minute), per_cent * minute.rate_per_s,
       minute.both_ways ? "second_peak_percent = -100\n" : "", calibration::planned_hold_s,
       calibration::planned_pause_s);
+}
+
+/// Half the width of the full sensor's 95 % band [share of the rated flow], mean over openings, pressure differences
+/// and both ways of a spool that slides, from samples that the model itself would show. NaN where no point of the maps
+/// can be reached. Keep out: models without the full sensor and of whole valves.
+double expected_half_width(const model::Model& model) {
+  const sensor::ObserverParameters<double>& valve = model.observer->parameters;
+  const double highest_Pa = valve.edge.highest_pressure_difference_Pa(), rated = model.valve.rated_flow_m3_per_s;
+  double sum = 0;
+  int points = 0;
+  for (const double opening : {0.25, 0.4, 0.55, 0.7, 0.85}) {
+    for (const double pressure : {0.25, 0.5, 0.75, 0.95}) {
+      for (const bool opens : {true, false}) {
+        const auto course = uncertainty::course_to(model, {.position_m = opening * model.valve.stroke_m,
+                                                           .pressure_difference_Pa = pressure * highest_Pa,
+                                                           .oil_temperature_K = valve.edge.temperature_K.at(1),
+                                                           .opening = opens});
+        if (!course) continue;
+        estimation::RunningSensor sensor(&valve, rated);
+        sensor::Estimate<double> answer{};
+        for (const estimation::TimedSample& sample : *course) sensor.step(sample, answer);
+        sum += 0.5 * (answer.flow_upper_m3_per_s - answer.flow_lower_m3_per_s) / rated;
+        ++points;
+      }
+    }
+  }
+  return points > 0 ? sum / points : std::nan("");
 }
 
 void print_plan(const model::Model& type, const calibration::PlannedMinute& minute) {

@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-#include "spoolflow/export/fmu_binaries.hpp"
+#include "spoolflow/export/embedded_files.hpp"
 
 namespace spoolflow::exports {
 

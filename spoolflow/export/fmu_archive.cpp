@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/export/checksum.hpp"
-#include "spoolflow/export/fmu_assets.hpp"
+#include "spoolflow/export/embedded_files.hpp"
 #include "spoolflow/export/zip_archive.hpp"
 #include "spoolflow/model/provenance.hpp"
 

@@ -2,7 +2,7 @@
 #include <span>
 #include <string>
 
-#include "spoolflow/export/embedded_file.hpp"
+#include "spoolflow/export/embedded_files.hpp"
 #include "spoolflow/export/fmu_content.hpp"
 
 namespace spoolflow::exports {

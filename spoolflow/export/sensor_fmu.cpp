@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/export/embedded_files.hpp"
 #include "spoolflow/export/embedded_parts.hpp"
 #include "spoolflow/export/fmu/sensor_numbers.hpp"
 #include "spoolflow/export/fmu/sensor_variables.hpp"
-#include "spoolflow/export/sensor_fmu_sources.hpp"
 #include "spoolflow/export/xml_text.hpp"
 #include "spoolflow/units/conversion.hpp"
 

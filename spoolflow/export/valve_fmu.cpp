@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/export/embedded_files.hpp"
 #include "spoolflow/export/embedded_parts.hpp"
 #include "spoolflow/export/fmu/valve_numbers.hpp"
 #include "spoolflow/export/fmu/valve_variables.hpp"
-#include "spoolflow/export/valve_fmu_sources.hpp"
 #include "spoolflow/export/xml_text.hpp"
 #include "spoolflow/model/provenance.hpp"
 #include "spoolflow/units/conversion.hpp"

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/export/cpp_texts.hpp"
+#include "spoolflow/export/embedded_files.hpp"
 
 namespace spoolflow::exports {
 

@@ -1,6 +1,5 @@
 /// FMI 2.0: the functions that a co-simulation FMU works by.
 #include <algorithm>
-#include <cstring>
 
 #include "spoolflow/export/fmu/exported.hpp"
 #include "spoolflow/export/fmu/fmi2_instance.hpp"
@@ -9,7 +8,6 @@
 namespace fmu = spoolflow::exports::fmu;
 using fmu::Fmi2Instance;
 using fmu::Instance;
-using fmu::KeptState;
 using fmu::on_fmi2;
 using fmu::StateBytes;
 
@@ -137,13 +135,7 @@ SPOOLFLOW_FMI fmi2Status fmi2SetString(fmi2Component component, const fmi2ValueR
 }
 
 SPOOLFLOW_FMI fmi2Status fmi2GetFMUstate(fmi2Component component, fmi2FMUstate* state) {
-  return on_fmi2(component, [&](Instance& instance) {
-    if (*state == nullptr) {
-      *state = std::make_unique<KeptState>(KeptState{.bytes = instance.state()}).release();
-    } else {
-      static_cast<KeptState*>(*state)->bytes = instance.state();
-    }
-  });
+  return on_fmi2(component, [&](Instance& instance) { fmu::keep_state(*state, instance.state()); });
 }
 
 SPOOLFLOW_FMI fmi2Status fmi2SetFMUstate(fmi2Component component, fmi2FMUstate state) {
@@ -151,11 +143,7 @@ SPOOLFLOW_FMI fmi2Status fmi2SetFMUstate(fmi2Component component, fmi2FMUstate s
 }
 
 SPOOLFLOW_FMI fmi2Status fmi2FreeFMUstate(fmi2Component component, fmi2FMUstate* state) {
-  return on_fmi2(component, [&](Instance&) {
-    if (state == nullptr) return;
-    delete static_cast<KeptState*>(*state);
-    *state = nullptr;
-  });
+  return on_fmi2(component, [&](Instance&) { fmu::free_state(state); });
 }
 
 SPOOLFLOW_FMI fmi2Status fmi2SerializedFMUstateSize(fmi2Component component, fmi2FMUstate state, std::size_t* size) {
@@ -164,11 +152,7 @@ SPOOLFLOW_FMI fmi2Status fmi2SerializedFMUstateSize(fmi2Component component, fmi
 
 SPOOLFLOW_FMI fmi2Status fmi2SerializeFMUstate(fmi2Component component, fmi2FMUstate state, fmi2Byte bytes[],
                                                std::size_t size) {
-  return on_fmi2(component, [&](Instance&) {
-    const StateBytes& from = fmu::bytes_of(state);
-    if (size < from.size()) throw fmu::CallError("the buffer is smaller than the serialized state");
-    std::memcpy(bytes, from.data(), from.size());
-  });
+  return on_fmi2(component, [&](Instance&) { fmu::copy_state(state, bytes, size); });
 }
 
 SPOOLFLOW_FMI fmi2Status fmi2DeSerializeFMUstate(fmi2Component component, const fmi2Byte bytes[], std::size_t size,
@@ -176,11 +160,7 @@ SPOOLFLOW_FMI fmi2Status fmi2DeSerializeFMUstate(fmi2Component component, const 
   return on_fmi2(component, [&](Instance& instance) {
     StateBytes read(bytes, bytes + size);
     instance.check_state(read);
-    if (*state == nullptr) {
-      *state = std::make_unique<KeptState>(KeptState{.bytes = std::move(read)}).release();
-    } else {
-      static_cast<KeptState*>(*state)->bytes = std::move(read);
-    }
+    fmu::keep_state(*state, std::move(read));
   });
 }
 

@@ -7,7 +7,6 @@
 namespace fmu = spoolflow::exports::fmu;
 using fmu::Fmi3Instance;
 using fmu::Instance;
-using fmu::KeptState;
 using fmu::on_fmi3;
 using fmu::StateBytes;
 using std::size_t;
@@ -66,13 +65,7 @@ SPOOLFLOW_FMI fmi3Status fmi3Reset(fmi3Instance handle) {
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3GetFMUState(fmi3Instance handle, fmi3FMUState* state) {
-  return on_fmi3(handle, [&](Instance& instance) {
-    if (*state == nullptr) {
-      *state = std::make_unique<KeptState>(KeptState{.bytes = instance.state()}).release();
-    } else {
-      static_cast<KeptState*>(*state)->bytes = instance.state();
-    }
-  });
+  return on_fmi3(handle, [&](Instance& instance) { fmu::keep_state(*state, instance.state()); });
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3SetFMUState(fmi3Instance handle, fmi3FMUState state) {
@@ -80,11 +73,7 @@ SPOOLFLOW_FMI fmi3Status fmi3SetFMUState(fmi3Instance handle, fmi3FMUState state
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3FreeFMUState(fmi3Instance handle, fmi3FMUState* state) {
-  return on_fmi3(handle, [&](Instance&) {
-    if (state == nullptr) return;
-    delete static_cast<KeptState*>(*state);
-    *state = nullptr;
-  });
+  return on_fmi3(handle, [&](Instance&) { fmu::free_state(state); });
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3SerializedFMUStateSize(fmi3Instance handle, fmi3FMUState state, size_t* size) {
@@ -92,11 +81,7 @@ SPOOLFLOW_FMI fmi3Status fmi3SerializedFMUStateSize(fmi3Instance handle, fmi3FMU
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3SerializeFMUState(fmi3Instance handle, fmi3FMUState state, fmi3Byte bytes[], size_t size) {
-  return on_fmi3(handle, [&](Instance&) {
-    const StateBytes& from = fmu::bytes_of(state);
-    if (size < from.size()) throw fmu::CallError("the buffer is smaller than the serialized state");
-    std::memcpy(bytes, from.data(), from.size());
-  });
+  return on_fmi3(handle, [&](Instance&) { fmu::copy_state(state, bytes, size); });
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3DeserializeFMUState(fmi3Instance handle, const fmi3Byte bytes[], size_t size,
@@ -105,11 +90,7 @@ SPOOLFLOW_FMI fmi3Status fmi3DeserializeFMUState(fmi3Instance handle, const fmi3
     StateBytes read(size);
     if (size > 0) std::memcpy(read.data(), bytes, size);
     instance.check_state(read);
-    if (*state == nullptr) {
-      *state = std::make_unique<KeptState>(KeptState{.bytes = std::move(read)}).release();
-    } else {
-      static_cast<KeptState*>(*state)->bytes = std::move(read);
-    }
+    fmu::keep_state(*state, std::move(read));
   });
 }
 

@@ -5,11 +5,13 @@
 /// [t, t + h) with the inputs as they were set at t; an instant that two steps share belongs to the later one. So the
 /// result depends on the inputs at the sample instants alone, not on how time is cut into communication steps.
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "spoolflow/export/fmu/component.hpp"
@@ -37,6 +39,23 @@ struct KeptState {
 [[nodiscard]] inline const StateBytes& bytes_of(const void* state) {
   if (state == nullptr) throw CallError("there is no state; get or deserialize one first");
   return static_cast<const KeptState*>(state)->bytes;
+}
+
+/// Into the state that `handle` points to; where it is null, into a new one.
+inline void keep_state(void*& handle, StateBytes bytes) {
+  if (handle == nullptr) handle = new KeptState;
+  static_cast<KeptState*>(handle)->bytes = std::move(bytes);
+}
+inline void free_state(void** handle) {
+  if (handle == nullptr) return;
+  delete static_cast<KeptState*>(*handle);
+  *handle = nullptr;
+}
+/// Throws CallError for a null handle, or a buffer of fewer bytes than the state has.
+inline void copy_state(const void* state, void* buffer, std::size_t size) {
+  const StateBytes& from = bytes_of(state);
+  if (size < from.size()) throw CallError("the buffer is smaller than the serialized state");
+  std::memcpy(buffer, from.data(), from.size());
 }
 
 class Instance {

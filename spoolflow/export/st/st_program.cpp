@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/export/cpp/exported_text.hpp"
-#include "spoolflow/export/parameters/single_tables.hpp"
+#include "spoolflow/export/parameters/parameter_image.hpp"
 #include "spoolflow/sensor/basis/sample.hpp"
 #include "spoolflow/sensor/basis/table.hpp"
 
