@@ -2,6 +2,8 @@
 
 #include <array>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -45,9 +47,10 @@ Environment of_kind(const std::string& kind, const std::string& place) {
 }
 
 void require_known_keys(const TomlTable& table) {
-  table.allow_only({"kind", "position_zero_um", "position_gain_percent", "viscosity_percent", "temperature_K",
-                    "density_percent", "current_gain_percent", "pwm_ripple_percent", "leakage_L_min",
-                    "friction_percent", "dithered_loop_percent", "vibration_g", "ripple_bar", "highest_pressure_bar"});
+  std::vector<std::string> allowed{"kind"};
+  for (const Key& key : keys) allowed.emplace_back(key.name);
+  allowed.emplace_back("highest_pressure_bar");
+  table.allow_only(allowed);
 }
 
 Environment from_table(const TomlTable& table, const std::string& usual_kind) {

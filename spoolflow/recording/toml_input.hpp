@@ -1,7 +1,7 @@
 #pragma once
 /// TOML files with messages that name file and line. Included by the files that read TOML only: toml++ is a long read.
+#include <cstddef>
 #include <filesystem>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,6 +10,17 @@
 #include <toml++/toml.h>
 
 namespace spoolflow::recording {
+
+// Limits of TOML text, held before it is parsed: parsers go down a level of their stack with each level of the text.
+inline constexpr std::size_t largest_toml_bytes = std::size_t{4} << 20;  ///< a campaign has some kilobytes
+inline constexpr std::size_t deepest_toml = 32;                          ///< brackets around a value; dots in a key
+
+/// "line 3: nests deeper than 32 levels; correct it there"; nothing where the text may be parsed. Text in quotes and
+/// comments does not count.
+[[nodiscard]] std::optional<std::string> too_deep_toml(std::string_view text);
+
+/// The text of a file for the parser. Throws RecordingError: no such file, larger or deeper than the limits.
+[[nodiscard]] std::string read_toml_text(const std::filesystem::path& file);
 
 /// Throws RecordingError: no such file, or a mistake in its syntax with its line.
 [[nodiscard]] toml::table read_toml(const std::filesystem::path& file);
@@ -24,7 +35,7 @@ struct TomlTable {
   std::string name;
 
   /// Throws RecordingError with file and line where a key is none of these, naming the nearest.
-  void allow_only(std::initializer_list<std::string_view> keys) const;
+  void allow_only(const std::vector<std::string>& allowed) const;
   /// Throw RecordingError where the key is missing (the required ones), or its value is of another type.
   [[nodiscard]] std::string text(std::string_view key) const;
   [[nodiscard]] std::optional<std::string> optional_text(std::string_view key) const;

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "spoolflow/recording/toml_limits.hpp"
+#include "spoolflow/recording/toml_input.hpp"
 #include "tests/recording/refusal.hpp"
 #include "tests/recording/temporary_file.hpp"
 

@@ -15,7 +15,7 @@
 
 #include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/files/fork_server.hpp"
-#include "spoolflow/recording/files/numbered_names.hpp"
+#include "spoolflow/recording/files/matrix_names.hpp"
 #include "spoolflow/recording/files/reading_process.hpp"
 
 namespace spoolflow::recording {

@@ -16,7 +16,6 @@
 #include "spoolflow/recording/files/declared_size.hpp"
 #include "spoolflow/recording/files/hdf5_attributes.hpp"
 #include "spoolflow/recording/files/hdf5_handle.hpp"
-#include "spoolflow/recording/files/hdf5_other_files.hpp"
 #include "spoolflow/recording/files/hdf5_unread.hpp"
 #include "spoolflow/recording/files/matrix_names.hpp"
 #include "spoolflow/recording/files/time_name.hpp"

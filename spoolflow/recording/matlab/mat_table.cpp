@@ -11,7 +11,7 @@
 #include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/files/declared_size.hpp"
 #include "spoolflow/recording/files/hdf5_handle.hpp"
-#include "spoolflow/recording/files/hdf5_other_files.hpp"
+#include "spoolflow/recording/files/hdf5_unread.hpp"
 #include "spoolflow/recording/files/matrix_names.hpp"
 #include "spoolflow/recording/files/vector_table.hpp"
 #include "spoolflow/recording/matlab/mat_elements.hpp"

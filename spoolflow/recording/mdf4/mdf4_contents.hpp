@@ -8,7 +8,6 @@
 
 #include "spoolflow/recording/files/unread_part.hpp"
 #include "spoolflow/recording/mdf4/mdf4_conversion.hpp"
-#include "spoolflow/recording/mdf4/mdf4_sample.hpp"
 #include "spoolflow/recording/mdf4/mdf4_stream.hpp"
 
 namespace spoolflow::recording {

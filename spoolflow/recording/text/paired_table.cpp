@@ -7,7 +7,7 @@
 
 #include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/files/declared_size.hpp"
-#include "spoolflow/recording/files/numbered_names.hpp"
+#include "spoolflow/recording/files/matrix_names.hpp"
 
 namespace spoolflow::recording {
 namespace {

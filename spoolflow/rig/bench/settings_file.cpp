@@ -9,7 +9,7 @@
 
 #include "spoolflow/recording/channels/nearest_name.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
-#include "spoolflow/recording/toml_limits.hpp"
+#include "spoolflow/recording/toml_input.hpp"
 
 namespace spoolflow::rig {
 namespace {
