@@ -16,7 +16,6 @@
 #include "spoolflow/calibration/fits/position_sensor.hpp"
 #include "spoolflow/calibration/fits/spring_fit.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
-#include "spoolflow/calibration/operation/force_error_ratio.hpp"
 #include "spoolflow/calibration/operation/identifiable_parameters.hpp"
 #include "spoolflow/calibration/operation/operation.hpp"
 #include "spoolflow/calibration/operation/operation_uncertainty.hpp"

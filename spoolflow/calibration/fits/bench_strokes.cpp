@@ -4,6 +4,51 @@
 
 namespace spoolflow::calibration {
 
+namespace {
+
+/// Extremes from which the position has since come back by `least_travel_m`, with the ends of the recording.
+std::vector<std::size_t> turning_points(std::span<const double> position_m, double least_travel_m) {
+  std::vector<std::size_t> turns;
+  std::size_t lowest = 0;
+  std::size_t highest = 0;
+  int heading = 0;  // +1 opening, -1 closing, 0 not yet known
+  for (std::size_t k = 0; k < position_m.size(); ++k) {
+    const double x = position_m[k];
+    if (std::isnan(x)) continue;
+    if (!(x >= position_m[lowest])) lowest = k;
+    if (!(x <= position_m[highest])) highest = k;
+    if (heading <= 0 && x - position_m[lowest] >= least_travel_m) {
+      turns.push_back(lowest);
+      heading = 1;
+      highest = k;
+    } else if (heading >= 0 && position_m[highest] - x >= least_travel_m) {
+      turns.push_back(highest);
+      heading = -1;
+      lowest = k;
+    }
+  }
+  if (heading != 0) turns.push_back(heading > 0 ? highest : lowest);
+  return turns;
+}
+
+}  // namespace
+
+std::vector<Sweep> find_sweeps(std::span<const double> position_m, double least_travel_m, double settling_m) {
+  const std::vector<std::size_t> turns = turning_points(position_m, least_travel_m);
+  const auto near = [&](std::size_t k, std::size_t turn) {
+    return !(std::abs(position_m[k] - position_m[turn]) > settling_m);
+  };
+  std::vector<Sweep> sweeps;
+  for (std::size_t k = 0; k + 1 < turns.size(); ++k) {
+    Sweep sweep{position_m[turns[k + 1]] > position_m[turns[k]] ? Direction::opening : Direction::closing, turns[k],
+                turns[k + 1] + 1};
+    while (sweep.begin < sweep.end && near(sweep.begin, turns[k])) ++sweep.begin;
+    while (sweep.end > sweep.begin && near(sweep.end - 1, turns[k + 1])) --sweep.end;
+    if (sweep.end > sweep.begin) sweeps.push_back(sweep);
+  }
+  return sweeps;
+}
+
 std::vector<Sweep> find_bench_strokes(std::span<const double> position_m, double stroke_m) {
   return find_sweeps(position_m, 0.1 * stroke_m, 0.01 * stroke_m);
 }

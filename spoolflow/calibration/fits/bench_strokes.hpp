@@ -1,12 +1,26 @@
 #pragma once
 /// What all quasi-static bench protocols share: strokes long enough to be averaged, and the oil they were made in.
+#include <cstddef>
 #include <span>
 #include <vector>
 
-#include "spoolflow/calibration/fits/sweep.hpp"
 #include "spoolflow/recording/recording.hpp"
 
 namespace spoolflow::calibration {
+
+enum class Direction { opening, closing };
+
+/// A stroke of a bench recording: samples [begin, end) that travel one way, without the holds at their ends.
+struct Sweep {
+  Direction direction;
+  std::size_t begin;
+  std::size_t end;
+};
+
+/// Strokes that travel at least `least_travel_m`. Noise and jitter smaller than that do not end a stroke; a hold at an
+/// end belongs to none. The first `settling_m` of each stroke, where friction still turns over, is left out as well.
+[[nodiscard]] std::vector<Sweep> find_sweeps(std::span<const double> position_m, double least_travel_m,
+                                             double settling_m);
 
 /// Strokes of at least a tenth of the valve's stroke, the first and last hundredth of it left out: friction turns over
 /// within some ten micrometres after each reversal.

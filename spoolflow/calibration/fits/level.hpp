@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "spoolflow/calibration/fits/sweep.hpp"
+#include "spoolflow/calibration/fits/bench_strokes.hpp"
 #include "spoolflow/recording/recording.hpp"
 
 namespace spoolflow::calibration {

@@ -2,7 +2,7 @@
 /// Friction of whatever slides, identified from its position and the force that drives it.
 #include <span>
 
-#include "spoolflow/calibration/fits/sweep.hpp"
+#include "spoolflow/calibration/fits/bench_strokes.hpp"
 #include "spoolflow/calibration/numerics/fit_residual.hpp"
 
 namespace spoolflow::calibration {

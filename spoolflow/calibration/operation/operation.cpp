@@ -6,7 +6,6 @@
 #include <limits>
 #include <string_view>
 
-#include "spoolflow/calibration/operation/force_error_ratio.hpp"
 #include "spoolflow/calibration/operation/identifiable_parameters.hpp"
 #include "spoolflow/calibration/operation/operation_score.hpp"
 #include "spoolflow/calibration/operation/operation_uncertainty.hpp"

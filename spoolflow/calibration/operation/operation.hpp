@@ -33,7 +33,7 @@ struct OperationFit {
   std::vector<std::string>
       not_identifiable;       ///< parameters that these recordings do not identify, see identifiable_parameters.hpp
   FitResidual flow_m3_per_s;  ///< estimate less reference, with the fitted parameters
-  double force_error_ratio;   ///< see force_error_ratio.hpp; the band is scaled by it
+  double force_error_ratio;   ///< see force_error_ratio(); the band is scaled by it
   double band_coverage;       ///< share of the samples with the reference inside the band
   std::size_t samples;        ///< that were used: see replay.hpp
 };

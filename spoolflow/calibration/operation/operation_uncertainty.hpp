@@ -1,4 +1,7 @@
 #pragma once
+/// How much of the stated force errors the observer's band must count: what they do to the flow while the valve works
+/// shows, beside a reference flow, whether they are as large as the benches' residuals make them. And what operating
+/// recordings leave unknown of the parameters that are fitted to them.
 #include <vector>
 
 #include "spoolflow/calibration/operation/operation_score.hpp"
@@ -7,6 +10,31 @@
 #include "spoolflow/sensor/observer.hpp"
 
 namespace spoolflow::calibration {
+
+/// Without an operating recording: wider than any of the valves that were tried needs (docs/accuracy.md).
+inline constexpr double assumed_force_error_ratio = 2;
+/// Eleven of twelve models of rig valves, and valve A's, have tolerances of friction at rest from 0.8 to 1.4 N.
+inline constexpr double largest_usual_tolerance_N = 1.4;
+
+/// One run may agree better with the benches than others will.
+inline constexpr double least_force_error_ratio = 0.4;
+
+/// Dither, which bounds friction, does not show the force errors at rest without it: no less than this
+/// where no recording shows such a rest.
+inline constexpr double least_dithered_force_error_ratio = 1;
+
+/// Forces that no force bench measured were fitted to runs like the one that this ratio is found on. Dither or a faster
+/// spool show errors of hysteresis and friction that hide each other in such runs.
+inline constexpr double least_inferred_force_error_ratio = 0.7;
+
+/// RMS error of the flow at rest over what one standard deviation of the forces makes of it, the meter's lag and noise
+/// taken out. At rest nothing averages the forces' errors. The assumed ratio where the spool never rests open;
+/// never less than the least.
+[[nodiscard]] double force_error_ratio(const sensor::ObserverParameters<double>& parameters,
+                                       const std::vector<OperatingRun>& runs);
+
+/// Sets what the band counts in proportion to that ratio.
+void scale_band(sensor::ObserverParameters<double>& parameters, double force_error_ratio);
 
 /// The name of that fit.
 inline constexpr const char* fit_of_operation = "friction and position sensor in operation";

@@ -1,10 +1,9 @@
 /// What the magnetic force may be wrong by in fast changes, where hardly any eddy currents explain it.
-#include "spoolflow/calibration/fits/actuator_uncertainty.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "spoolflow/calibration/fits/actuator_fit.hpp"
 #include "spoolflow/model/describe_observer.hpp"
 #include "tests/sensor/closed_form_valve.hpp"
 

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "spoolflow/calibration/operation/force_error_ratio.hpp"
 #include "spoolflow/calibration/operation/operation_score.hpp"
+#include "spoolflow/calibration/operation/operation_uncertainty.hpp"
 #include "spoolflow/calibration/operation/replay.hpp"
 #include "tests/sensor/valve_course.hpp"
 

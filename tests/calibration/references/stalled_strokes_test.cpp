@@ -1,8 +1,7 @@
 /// Ends of strokes that nothing but the valve's forces shows.
-#include "spoolflow/calibration/references/stalled_strokes.hpp"
-
 #include <gtest/gtest.h>
 
+#include "spoolflow/calibration/references/passed_oil.hpp"
 #include "spoolflow/recording/reader.hpp"
 #include "tests/calibration/type/virtual_unit.hpp"
 #include "tests/recording/temporary_file.hpp"

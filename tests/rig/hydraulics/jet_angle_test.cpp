@@ -1,13 +1,13 @@
-#include "spoolflow/rig/hydraulics/jet_angle.hpp"
-
 #include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "spoolflow/rig/hydraulics/flow_force.hpp"
+
 namespace spoolflow::rig {
 namespace {
 
-/// Opening over clearance that belongs to an angle, exactly (von Mises, as in jet_angle.hpp).
+/// Opening over clearance that belongs to an angle, exactly (von Mises, as in flow_force.hpp).
 double slot_ratio(double angle) {
   using std::numbers::pi;
   const double opening = 1.0 + 0.5 * pi * std::sin(angle) - std::log(std::tan(0.5 * (pi - angle))) * std::cos(angle);
