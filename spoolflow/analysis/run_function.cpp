@@ -6,7 +6,7 @@
 #include "spoolflow/analysis/run_samples.hpp"
 #include "spoolflow/estimation/columns.hpp"
 #include "spoolflow/numerics/meter_lag.hpp"
-#include "spoolflow/uncertainty/noisy_errors.hpp"
+#include "spoolflow/uncertainty/seeded_numbers.hpp"
 
 namespace spoolflow::analysis {
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/analysis/study_ledger.hpp"
-#include "spoolflow/analysis/virtual_model.hpp"
+#include "spoolflow/analysis/virtual_unit.hpp"
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/estimation/recordings/sensor_channels.hpp"
 #include "spoolflow/parallel/for_each.hpp"

@@ -2,6 +2,7 @@
 /// One virtual unit of a series: measured, calibrated in every way, and judged.
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "spoolflow/model/model.hpp"
@@ -9,6 +10,11 @@
 #include "spoolflow/rig/bench/virtual_campaign.hpp"
 
 namespace spoolflow::analysis {
+
+/// The model that calibration makes of a virtual valve's own bench recordings, at four pressure levels. Kept in memory:
+/// nothing is written.
+[[nodiscard]] model::Model virtual_model(const rig::ValveAndCampaign& asked, unsigned workers,
+                                         const std::function<void(double)>& progress);
 
 /// What is known of a unit, the least first.
 enum class KnownBy : unsigned char {

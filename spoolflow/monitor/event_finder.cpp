@@ -3,6 +3,7 @@
 #include <algorithm>
 
 namespace spoolflow::monitor {
+
 namespace {
 
 void add(FinderMean& mean, const FinderMean& more) {

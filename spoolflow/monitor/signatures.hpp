@@ -1,7 +1,7 @@
 #pragma once
 /// What each fault does to the net force (magnetic less spring force) at one event, by the healthy model.
+#include "spoolflow/monitor/event_finder.hpp"
 #include "spoolflow/monitor/fault_parameters.hpp"
-#include "spoolflow/monitor/force_event.hpp"
 #include "spoolflow/sensor/observer_parameters.hpp"
 
 namespace spoolflow::monitor {

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "spoolflow/uncertainty/condensed_slopes.hpp"
-#include "spoolflow/uncertainty/noisy_errors.hpp"
+#include "spoolflow/uncertainty/seeded_numbers.hpp"
 
 namespace spoolflow::uncertainty {
 

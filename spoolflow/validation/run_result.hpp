@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "spoolflow/estimation/estimator.hpp"
-#include "spoolflow/validation/direction_profile.hpp"
 #include "spoolflow/validation/error_profile.hpp"
 #include "spoolflow/validation/frequency_response.hpp"
 #include "spoolflow/validation/known_meter.hpp"

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/report/figures/svg_figure.hpp"
-#include "spoolflow/report/page/page_style.hpp"
+#include "spoolflow/report/page/html_page.hpp"
 #include "spoolflow/units/conversion.hpp"
 #include "spoolflow/validation/trace.hpp"
 

@@ -1,8 +1,8 @@
-#include "spoolflow/validation/direction_profile.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "spoolflow/validation/error_profile.hpp"
 
 namespace spoolflow::validation {
 namespace {

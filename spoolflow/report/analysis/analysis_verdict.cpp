@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "spoolflow/report/text/number_text.hpp"
-#include "spoolflow/report/text/sensor_name.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {

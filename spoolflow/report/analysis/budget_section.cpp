@@ -4,7 +4,6 @@
 
 #include "spoolflow/report/analysis/budget_tables.hpp"
 #include "spoolflow/report/text/number_text.hpp"
-#include "spoolflow/report/text/sensor_name.hpp"
 #include "spoolflow/validation/validate.hpp"
 
 namespace spoolflow::report {

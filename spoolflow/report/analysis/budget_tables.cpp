@@ -7,7 +7,6 @@
 
 #include "spoolflow/report/text/html_text.hpp"
 #include "spoolflow/report/text/number_text.hpp"
-#include "spoolflow/report/text/sensor_name.hpp"
 
 namespace spoolflow::report {
 namespace {

@@ -6,10 +6,9 @@
 #include <fmt/format.h>
 
 #include "spoolflow/report/figures/heat_scale.hpp"
-#include "spoolflow/report/figures/ticks.hpp"
+#include "spoolflow/report/figures/plot_frame.hpp"
 #include "spoolflow/report/text/html_text.hpp"
 #include "spoolflow/report/text/number_text.hpp"
-#include "spoolflow/report/text/sensor_name.hpp"
 
 namespace spoolflow::report {
 namespace {

@@ -6,10 +6,9 @@
 #include <fmt/format.h>
 
 #include "spoolflow/report/figures/bar_chart.hpp"
-#include "spoolflow/report/figures/scaled.hpp"
+#include "spoolflow/report/figures/figure.hpp"
 #include "spoolflow/report/text/html_text.hpp"
 #include "spoolflow/report/text/number_text.hpp"
-#include "spoolflow/report/text/sensor_name.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {

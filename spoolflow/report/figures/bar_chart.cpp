@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/report/figures/plot_frame.hpp"
 #include "spoolflow/report/figures/reader_axes.hpp"
-#include "spoolflow/report/figures/ticks.hpp"
 #include "spoolflow/report/text/html_text.hpp"
 
 namespace spoolflow::report {

@@ -8,7 +8,6 @@
 #include "spoolflow/report/figures/plot_frame.hpp"
 #include "spoolflow/report/figures/reader_axes.hpp"
 #include "spoolflow/report/figures/svg_mark.hpp"
-#include "spoolflow/report/figures/ticks.hpp"
 #include "spoolflow/report/text/html_text.hpp"
 
 namespace spoolflow::report {

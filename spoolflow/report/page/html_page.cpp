@@ -1,12 +1,37 @@
 #include "spoolflow/report/page/html_page.hpp"
 
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
 #include <fmt/format.h>
 
 #include "spoolflow/report/figures/svg_figure.hpp"
-#include "spoolflow/report/page/page_style.hpp"
+#include "spoolflow/report/page/page_files.hpp"
 #include "spoolflow/report/text/html_text.hpp"
 
 namespace spoolflow::report {
+
+namespace {
+
+std::string_view bytes_of(std::string_view name) {
+  const auto files = page_files();
+  const auto found =
+      std::find_if(files.begin(), files.end(), [&](const EmbeddedFile& file) { return file.name == name; });
+  if (found == files.end()) throw std::logic_error("the program was built without " + std::string(name));
+  return found->bytes;
+}
+
+}  // namespace
+
+std::string_view page_style() {
+  return bytes_of("page.css");
+}
+
+std::string_view page_script() {
+  return bytes_of("page.js");
+}
+
 namespace {
 
 constexpr Layout wide_layout{1064, 1};

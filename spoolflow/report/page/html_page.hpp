@@ -14,6 +14,12 @@
 
 namespace spoolflow::report {
 
+/// The style sheet of every page: light, dark, print, narrow screens. Its source is web/src/style.
+[[nodiscard]] std::string_view page_style();
+
+/// The script of every page: colours and units of the reader's choice, plots that zoom. Its source is web/src.
+[[nodiscard]] std::string_view page_script();
+
 /// A figure with the sentence below it. `legend` replaces the legend made from the figure. `live`: data with which the
 /// page's script puts plots that zoom in the figure's place (trace_json.hpp); print keeps the figure.
 struct CaptionedFigure {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 namespace spoolflow::report {
+
 namespace {
 
 constexpr const char* minus = "\u2212";

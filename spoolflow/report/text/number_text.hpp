@@ -1,8 +1,16 @@
 #pragma once
 /// Numbers as people read them: a true minus sign, no negative zero, a dash for what is not known.
 #include <string>
+#include <string_view>
+
+#include "spoolflow/estimation/estimator.hpp"
 
 namespace spoolflow::report {
+
+/// As it stands in a sentence after "the": "condensed sensor", "observer".
+[[nodiscard]] constexpr std::string_view sensor_name(estimation::Estimator estimator) {
+  return estimator == estimation::Estimator::condensed ? "condensed sensor" : "observer";
+}
 
 [[nodiscard]] std::string fixed(double value, int decimals);
 /// With its sign always.

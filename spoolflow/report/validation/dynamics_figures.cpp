@@ -5,9 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/report/figures/scaled.hpp"
+#include "spoolflow/report/figures/figure.hpp"
 #include "spoolflow/report/text/number_text.hpp"
-#include "spoolflow/report/text/sensor_name.hpp"
 
 namespace spoolflow::report {
 namespace {

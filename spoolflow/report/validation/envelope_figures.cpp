@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "spoolflow/report/figures/scaled.hpp"
+#include "spoolflow/report/figures/figure.hpp"
 
 namespace spoolflow::report {
 namespace {

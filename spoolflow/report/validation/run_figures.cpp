@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/report/figures/scaled.hpp"
+#include "spoolflow/report/figures/figure.hpp"
 #include "spoolflow/report/text/number_text.hpp"
 #include "spoolflow/report/validation/trace_json.hpp"
 

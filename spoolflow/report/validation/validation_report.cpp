@@ -12,7 +12,6 @@
 #include "spoolflow/report/calibration/residual_figures.hpp"
 #include "spoolflow/report/text/html_text.hpp"
 #include "spoolflow/report/text/number_text.hpp"
-#include "spoolflow/report/text/sensor_name.hpp"
 #include "spoolflow/report/validation/direction_figures.hpp"
 #include "spoolflow/report/validation/dynamics_figures.hpp"
 #include "spoolflow/report/validation/envelope_figures.hpp"

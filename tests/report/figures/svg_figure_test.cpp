@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "spoolflow/report/figures/ticks.hpp"
+#include "spoolflow/report/figures/plot_frame.hpp"
 #include "tests/report/markup.hpp"
 
 namespace spoolflow::report {
