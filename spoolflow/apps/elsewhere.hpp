@@ -46,6 +46,9 @@ struct Elsewhere {
 };
 
 /// The program's own.
-[[nodiscard]] Elsewhere& elsewhere();
+[[nodiscard]] inline Elsewhere& elsewhere() {
+  static Elsewhere of_the_program;
+  return of_the_program;
+}
 
 }  // namespace spoolflow::apps

@@ -8,11 +8,17 @@
 
 #include "spoolflow/export/checksum.hpp"
 #include "spoolflow/export/fmu/resource.hpp"
-#include "spoolflow/export/fmu/sensor_directions.hpp"
 #include "spoolflow/model/describe_condensed.hpp"
 #include "spoolflow/model/describe_observer.hpp"
 
 namespace spoolflow::exports::fmu {
+
+/// The parameters of a whole valve's two directions.
+template <class Parameters>
+struct BothDirections {
+  Parameters b;  ///< flow P to B
+  Parameters a;  ///< flow P to A
+};
 
 /// Visits a description and hands every number to `each`; the keys go into a checksum, so that two orders differ.
 template <class Each>

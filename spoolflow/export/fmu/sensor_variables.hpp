@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "spoolflow/export/fmu/sensor_directions.hpp"
 #include "spoolflow/export/fmu/sensor_inputs.hpp"
+#include "spoolflow/export/fmu/sensor_numbers.hpp"
 #include "spoolflow/export/fmu/variable.hpp"
 #include "spoolflow/model/parameter.hpp"
 #include "spoolflow/sensor/condensed.hpp"

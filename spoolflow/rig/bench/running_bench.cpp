@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 namespace spoolflow::rig {
+
 namespace {
 
 /// Surroundings over the period that begins at `time_s`.
