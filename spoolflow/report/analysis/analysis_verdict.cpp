@@ -91,18 +91,14 @@ AnalysisVerdict analysis_verdict(const model::Model& model, const analysis::Anal
   }
   const GroupShare* const sub_model = largest(shares, true);
   const GroupShare* const instrument = largest(shares, false);
+  const bool instrument_leads = instrument->share > sub_model->share;
+  const GroupShare& first = instrument_leads ? *instrument : *sub_model;
+  const GroupShare& second = instrument_leads ? *sub_model : *instrument;
   out.sentence = fmt::format(
       "Improve the {} next: it makes {} % of the variance of the {}'s flow rate, the mean over the working points. Of "
-      "instruments and oil the {} counts most ({} %).",
-      sub_model->group, fixed(100 * sub_model->share, 0), sensor_name(estimator), instrument->group,
-      fixed(100 * instrument->share, 0));
-  if (instrument->share > sub_model->share) {
-    out.sentence = fmt::format(
-        "Improve the {} next: it makes {} % of the variance of the {}'s flow rate, the mean over the working points. "
-        "Of the sub-models the {} counts most ({} %).",
-        instrument->group, fixed(100 * instrument->share, 0), sensor_name(estimator), sub_model->group,
-        fixed(100 * sub_model->share, 0));
-  }
+      "{} the {} counts most ({} %).",
+      first.group, fixed(100 * first.share, 0), sensor_name(estimator),
+      instrument_leads ? "the sub-models" : "instruments and oil", second.group, fixed(100 * second.share, 0));
   if (analysis.study) out.remarks.push_back(across_the_series(*analysis.study));
   out.remarks.push_back(fmt::format("Half the stated 95 % interval of the {} at the working points: {}.",
                                     sensor_name(estimator), range_of_expanded(model, analysis, estimator)));

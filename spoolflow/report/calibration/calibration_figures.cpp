@@ -9,19 +9,20 @@ namespace {
 using units::Kind;
 
 /// Levels in rising order, whatever the order in which they were recorded.
-std::vector<const model::AxialForceLoop*> by_pressure(const model::Evidence& evidence) {
-  std::vector<const model::AxialForceLoop*> out;
-  for (const model::AxialForceLoop& loop : evidence.axial_force) out.push_back(&loop);
-  std::sort(out.begin(), out.end(),
-            [](auto* a, auto* b) { return a->pressure_difference_set_Pa < b->pressure_difference_set_Pa; });
+template <class Loop>
+std::vector<const Loop*> rising(const std::vector<Loop>& loops, double Loop::*level) {
+  std::vector<const Loop*> out;
+  for (const Loop& loop : loops) out.push_back(&loop);
+  std::ranges::sort(out, {}, [&](const Loop* loop) { return loop->*level; });
   return out;
 }
 
+std::vector<const model::AxialForceLoop*> by_pressure(const model::Evidence& evidence) {
+  return rising(evidence.axial_force, &model::AxialForceLoop::pressure_difference_set_Pa);
+}
+
 std::vector<const model::MagneticForceLoop*> by_current(const model::Evidence& evidence) {
-  std::vector<const model::MagneticForceLoop*> out;
-  for (const model::MagneticForceLoop& loop : evidence.magnetic_force) out.push_back(&loop);
-  std::sort(out.begin(), out.end(), [](auto* a, auto* b) { return a->current_A < b->current_A; });
-  return out;
+  return rising(evidence.magnetic_force, &model::MagneticForceLoop::current_A);
 }
 
 std::vector<double> half_width(const std::vector<double>& a, const std::vector<double>& b) {
@@ -51,6 +52,13 @@ Mark position_line(const std::vector<const model::AxialForceLoop*>& loops, std::
   return line;
 }
 
+/// The k-th of n lines of a family, pale to deep.
+void add(Panel& panel, std::size_t k, std::size_t n, Mark line) {
+  line.tone = "";
+  line.ramp = ramp(k, n);
+  panel.marks.push_back(std::move(line));
+}
+
 }  // namespace
 
 CaptionedFigure flow_force_figure(const model::Evidence& evidence) {
@@ -66,10 +74,13 @@ CaptionedFigure flow_force_figure(const model::Evidence& evidence) {
   for (std::size_t k = 0; k < loops.size(); ++k) {
     const std::vector<double>& flow = loops[k]->flow_m3_per_s;
     const bool last = k + 1 == loops.size();
-    panel.marks.push_back(
-        {Shape::line, "", ramp(k, loops.size()), last ? "spool opens" : "", "", 1.6, loops[k]->opening_N, flow, {}});
-    panel.marks.push_back(
-        {Shape::dashed, "", ramp(k, loops.size()), last ? "spool closes" : "", "", 1.2, loops[k]->closing_N, flow, {}});
+    add(panel, k, loops.size(), {.name = last ? "spool opens" : "", .x = loops[k]->opening_N, .y = flow});
+    add(panel, k, loops.size(),
+        {.shape = Shape::dashed,
+         .name = last ? "spool closes" : "",
+         .width_px = 1.2,
+         .x = loops[k]->closing_N,
+         .y = flow});
   }
   Text levels;
   for (const model::AxialForceLoop* loop : loops) {
@@ -93,24 +104,17 @@ CaptionedFigure magnetic_force_figure(const model::Evidence& evidence) {
   for (std::size_t k = loops.size(); k-- > 0;) {
     const std::vector<double>& position = loops[k]->position_m;
     const bool last = k + 1 == loops.size();
-    panel.marks.push_back({Shape::line,
-                           "",
-                           ramp(k, loops.size()),
-                           last ? "armature opens" : "",
-                           fixed(units::current(loops[k]->current_A), 1),
-                           1.6,
-                           position,
-                           loops[k]->opening_N,
-                           {}});
-    panel.marks.push_back({Shape::dashed,
-                           "",
-                           ramp(k, loops.size()),
-                           last ? "armature closes" : "",
-                           "",
-                           1.2,
-                           position,
-                           loops[k]->closing_N,
-                           {}});
+    add(panel, k, loops.size(),
+        {.name = last ? "armature opens" : "",
+         .end_label = fixed(units::current(loops[k]->current_A), 1),
+         .x = position,
+         .y = loops[k]->opening_N});
+    add(panel, k, loops.size(),
+        {.shape = Shape::dashed,
+         .name = last ? "armature closes" : "",
+         .width_px = 1.2,
+         .x = position,
+         .y = loops[k]->closing_N});
   }
   return {{.description = "Magnetic force over position at held currents, both directions of motion",
            .x_title = "Position",
@@ -130,15 +134,11 @@ CaptionedFigure friction_figure(const model::Evidence& evidence) {
     std::vector<double> friction = half_width(loops[k]->opening_N, loops[k]->closing_N);
     least = std::min(least, mean(friction));
     most = std::max(most, mean(friction));
-    panel.marks.push_back({Shape::line,
-                           "",
-                           ramp(k, loops.size()),
-                           "",
-                           three_digits(units::pressure(loops[k]->pressure_difference_set_Pa)),
-                           1.4,
-                           loops[k]->position_m,
-                           std::move(friction),
-                           {}});
+    add(panel, k, loops.size(),
+        {.end_label = three_digits(units::pressure(loops[k]->pressure_difference_set_Pa)),
+         .width_px = 1.4,
+         .x = loops[k]->position_m,
+         .y = std::move(friction)});
   }
   return {
       {.description = "Friction half width over position per pressure difference",
@@ -160,15 +160,11 @@ CaptionedFigure hysteresis_figure(const model::Evidence& evidence) {
     std::vector<double> width = half_width(loops[k]->opening_N, loops[k]->closing_N);
     const double highest = width.empty() ? 0 : *std::max_element(width.begin(), width.end());
     if (highest > widest) widest = highest, widest_at_A = loops[k]->current_A;
-    panel.marks.push_back({Shape::line,
-                           "",
-                           ramp(k, loops.size()),
-                           "",
-                           fixed(units::current(loops[k]->current_A), 1),
-                           1.4,
-                           loops[k]->position_m,
-                           std::move(width),
-                           {}});
+    add(panel, k, loops.size(),
+        {.end_label = fixed(units::current(loops[k]->current_A), 1),
+         .width_px = 1.4,
+         .x = loops[k]->position_m,
+         .y = std::move(width)});
   }
   return {{.description = "Half width of the magnetic force loops over position per current",
            .x_title = "Position",
