@@ -104,12 +104,16 @@ SPOOLFLOW_NOINLINE constexpr void begin(const ActuatorParameters<T>& actuator, A
 template <class T>
 SPOOLFLOW_INLINE constexpr void magnetise(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
                                           const Sample<T>& sample) {
-  if (unlikely(!is_number(state.coil.magnetising_current_A))) {
+  const T current_A = state.coil.magnetising_current_A;
+  const Cell<T> position = flux_position(actuator, sample.position_m);
+  bool forgotten = false;  // which no current within the map is
+  const Cell<T> current = flux_current(actuator.coil, current_A, [&] { forgotten = !is_number(current_A); });
+  if (unlikely(forgotten)) {
     begin(actuator, state, sample.current_A, sample.position_m);
     return;
   }
-  follow_current(actuator.coil, state.coil, {sample.time_step_s, sample.current_A},
-                 flux_position(actuator, sample.position_m));
+  solve_current(actuator.coil, state.coil, {sample.time_step_s, sample.current_A},
+                {current_A, actuator.coil.flux_linkage.map.at(current, position)});
 }
 
 /// What the magnetic force may be wrong by, and the armature's friction.

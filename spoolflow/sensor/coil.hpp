@@ -135,10 +135,15 @@ constexpr T moved_current_A(const Coil<T>& coil, T current_A, T position_m, T tr
   return at_least_zero(magnitude(flux.column_slope * travel_m) / flux.row_slope);
 }
 
+/// Where a magnetising current lies in the flux map; `outside()` is called where it lies beyond it.
+template <class T, class Outside>
+constexpr Cell<T> flux_current(const Coil<T>& coil, T current_A, const Outside& outside) {
+  return locate<flux_map_currents>(coil.flux_linkage.map.row_axis, current_A, outside);
+}
+
 template <class T>
 constexpr CoilGuess<T> guess_at(const Coil<T>& coil, T current_A, const Cell<T>& position) {
-  const auto& map = coil.flux_linkage.map;
-  return {current_A, map.at(locate<flux_map_currents>(map.row_axis, current_A), position)};
+  return {current_A, coil.flux_linkage.map.at(flux_current(coil, current_A, [] {}), position)};
 }
 
 /// The first sample. Nothing is known of the coil's history, so that the iron is taken to lie in the middle of its

@@ -30,7 +30,7 @@ constexpr Passage<T> passage_at(const MeteringEdge<T>& edges, const EdgePoint<T>
   const T here = at_least_zero(edge.conductance);
   if (!position.fault) return {here, here, here};
   const T there =
-      edges.at(known.oil_layer, known.pressure.pressure_difference_Pa, magnitude(position.elsewhere_m)).conductance;
+      edges.conductance_at(known.oil_layer, known.pressure.pressure_difference_Pa, magnitude(position.elsewhere_m));
   const T elsewhere = position.elsewhere_m < T(0) ? -there : there;
   return {here, smaller(here, elsewhere), larger(here, elsewhere)};
 }
@@ -54,7 +54,7 @@ SPOOLFLOW_INLINE constexpr void widen_held(const ObserverParameters<T>& valve, c
   const T pressure_Pa = known.pressure.pressure_difference_Pa;
   const EdgePoint<T> edge = edges.at(known.oil_layer, pressure_Pa, at.position_m);
   const T open_conductance =
-      edges.at(known.oil_layer, pressure_Pa, edges.position_m.at(edge_positions - 1)).conductance;
+      edges.conductance_at(known.oil_layer, pressure_Pa, edges.position_m.at(edge_positions - 1));
   const T least = at.seen ? edge.conductance : T(0);
   const Passage<T> passage{least, least, at.seen ? edge.conductance : open_conductance};
   Estimate<T> now{};
@@ -68,7 +68,7 @@ template <class T>
 constexpr T most_flow(const ObserverParameters<T>& valve) {
   const MeteringEdge<T>& edges = valve.edge;
   const T highest_Pa = valve.highest_pressure_difference_Pa();
-  return edges.at(edges.temperature_K.at(1), highest_Pa, edges.position_m.at(edge_positions - 1)).conductance *
+  return edges.conductance_at(Cell<T>{1, T(0)}, highest_Pa, edges.position_m.at(edge_positions - 1)) *
          sqrt(highest_Pa);
 }
 

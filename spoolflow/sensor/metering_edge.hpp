@@ -128,6 +128,11 @@ struct MeteringEdge {
     out.temperature_inside = layer.inside;
     return out;
   }
+  /// The conductance there. A call of its own: asked where no force is used.
+  [[nodiscard]] SPOOLFLOW_NOINLINE constexpr T conductance_at(const Cell<T>& layer, T pressure_difference,
+                                                              T position) const {
+    return at(layer, pressure_difference, position).conductance;
+  }
 };
 
 }  // namespace spoolflow::sensor

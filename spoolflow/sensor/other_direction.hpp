@@ -12,7 +12,7 @@ template <class T>
 SPOOLFLOW_NOINLINE constexpr void admit_all(const ObserverParameters<T>& valve, const Cell<T>& oil_layer, T position_m,
                                             Estimate<T>& out) {
   const T highest_Pa = valve.highest_pressure_difference_Pa();
-  const T most = valve.edge.at(oil_layer, highest_Pa, -position_m).conductance * sqrt(highest_Pa);
+  const T most = valve.edge.conductance_at(oil_layer, highest_Pa, -position_m) * sqrt(highest_Pa);
   out.flow_lower_m3_per_s = smaller(out.flow_lower_m3_per_s, -most);
   out.status |= Status::other_direction;
 }

@@ -33,9 +33,10 @@ template <class T, class Possible>
 SPOOLFLOW_INLINE constexpr bool is_held(const CurrentLimits<T>& limits, const CurrentStep<T>& current, T time_step_s,
                                         int held, const Possible& possible_A) {
   const T change_A = magnitude(current.now_A - current.before_A);
-  const T usual_A = limits.jump_A + T(questioned_change_share) * limits.slope_A_per_s * time_step_s;
-  return unlikely(change_A > usual_A) && limits.jump_A > T(0) && held < most_held_currents &&
-         change_A - limits.jump_A > possible_A(limits.slope_A_per_s * time_step_s);
+  if (likely(!(change_A > limits.jump_A))) return false;
+  const T beyond_A = change_A - limits.jump_A, fastest_A = limits.slope_A_per_s * time_step_s;
+  return beyond_A > T(questioned_change_share) * fastest_A && limits.jump_A > T(0) && held < most_held_currents &&
+         beyond_A > possible_A(fastest_A);
 }
 
 /// Samples in a row in which the last current stood in, this one included.

@@ -59,8 +59,6 @@ inline constexpr double longest_position_fault_s = 0.25;
 inline constexpr double longest_position_doubt_s = 2.5;
 /// A block under dither ends after so long [s], whole period or not.
 inline constexpr double longest_dither_block_s = 0.015;
-/// A block is taken for no shorter [s]: velocities divide by it.
-inline constexpr double shortest_block_s = 1e-6;
 inline constexpr double fastest_m_per_s = 10;         ///< no spool moves faster
 inline constexpr double velocity_smoothing_s = 0.03;  ///< of the velocity
 inline constexpr double direction_only_m = 1e-6;      ///< size of a travel that shows a direction and nothing else

@@ -62,7 +62,8 @@ SPOOLFLOW_INLINE constexpr void close_block(PositionState<T>& state) {
 }
 
 /// Opening or closing where the blocks travel evenly, else rest. `noise_m` is that of the difference of two blocks; a
-/// spool that creeps by no more than `elastic_m()` in a window rests, and its contacts give way.
+/// spool that creeps by no more than `elastic_m()` in a window rests, and its contacts give way; asked for where the
+/// newest window shows more than noise.
 template <class T, class Elastic>
 SPOOLFLOW_INLINE constexpr Motion even_motion(const PositionState<T>& state, T noise_m, const Elastic& elastic_m) {
   Motion motion = Motion::rest;
@@ -71,8 +72,9 @@ SPOOLFLOW_INLINE constexpr Motion even_motion(const PositionState<T>& state, T n
         even_travel([&](int k) { return block(state, k * short_window_blocks); }, T(short_window_deviations) * noise_m);
   }
   if (motion == Motion::rest && state.blocks > 3 * long_window_blocks + 3) {
-    motion = even_travel([&](int k) { return four_blocks(state, k * long_window_blocks); },
-                         larger(T(long_window_deviations) * noise_m, elastic_m()));
+    const auto mean_m = [&](int k) { return four_blocks(state, k * long_window_blocks); };
+    const T least_m = T(long_window_deviations) * noise_m;
+    if (!(magnitude(mean_m(0) - mean_m(1)) < least_m)) motion = even_travel(mean_m, larger(least_m, elastic_m()));
   }
   return motion;
 }
@@ -86,7 +88,7 @@ SPOOLFLOW_INLINE constexpr void follow_velocity(const PositionSensor<T>& sensor,
   if (whole) {
     const T now_m = block(state, 0), oldest_m = block(state, 3 * window);
     const T change_m = now_m - block(state, window) - block(state, 2 * window) + oldest_m;
-    const T per_block_s = T(1) / larger(state.block_s, T(shortest_block_s));
+    const T per_block_s = T(1) / state.block_s;  // a block that has closed has a length
     const T velocity_m_per_s = (now_m - oldest_m) * (per_block_s * T(1.0 / (3 * window)));
     const T acceleration = change_m * (per_block_s * per_block_s * T(1.0 / (2 * window * window)));
     state.acceleration_m_per_s2 = limited_size(acceleration, sensor.hardest_acceleration_m_per_s2);
@@ -117,15 +119,16 @@ SPOOLFLOW_INLINE constexpr void find_motion(const PositionSensor<T>& sensor, Pos
   if (!even && state.blocks > short_window_blocks) {
     const T signed_travel_m = block(state, 0) - block(state, short_window_blocks);
     const T slow_m = T(slip_speed_m_per_s) * T(short_window_blocks) * state.block_s;
-    if (magnitude(signed_travel_m) > larger(slow_m, T(slip_deviations) * noise_m)) {
+    if (magnitude(signed_travel_m) > slow_m && magnitude(signed_travel_m) > T(slip_deviations) * noise_m) {
       state.unsettled_s = T(slip_settling_s);
       state.travel_m = signed_travel_m;
     }
   }
   if (even) state.travel_m = motion == Motion::opening ? T(direction_only_m) : T(-direction_only_m);
+  state.motion = motion;
+  if (is_zero(state.unsettled_s)) return;
   state.unsettled_s = even ? T(0) : at_least_zero(state.unsettled_s - state.block_s);
-  const bool unsettled = state.unsettled_s > T(0.5) * state.block_s;
-  state.motion = even ? motion : unsettled ? Motion::transient : Motion::rest;
+  if (state.unsettled_s > T(0.5) * state.block_s) state.motion = Motion::transient;
 }
 
 /// How much more than its noise the signal's step [m] may credibly change: what the largest acceleration allows, more
@@ -180,7 +183,7 @@ SPOOLFLOW_INLINE constexpr T without_faults(const PositionSensor<T>& sensor, Pos
                                             const Sample<T>& sample, const QuietCoil<T>& coil, T position_m) {
   const T noise_m = T(credible_jump_deviations) * sensor.noise_m * state.noise.times + T(credible_jump_m);
   const T change_m = position_m - state.offset_m - state.last_m;
-  const T forgotten_A = coil.current_A * (sample.time_step_s * T(current_change_forgotten_per_s / quiet_current_share));
+  const T forgotten_A = coil.current_A * T(current_change_forgotten_per_s / quiet_current_share) * sample.time_step_s;
   state.coil.change_A = larger(magnitude(sample.current_A - state.coil.current_A), state.coil.change_A - forgotten_A);
   if (magnitude(change_m - state.step_m) > noise_m)
     judge_jump(state, change_m, noise_m + accelerated_m(sensor, state, sample, coil), sample.time_step_s);
