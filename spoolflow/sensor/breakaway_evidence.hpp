@@ -12,10 +12,10 @@ inline constexpr double shortest_rest_s = 0.03;
 /// deviation.
 inline constexpr double loosened_ageing_share = 0.25;
 
-/// Whether the spool breaks away with this sample.
+/// Whether the spool, which does not cover the edge, breaks away with this sample.
 template <class T>
 SPOOLFLOW_INLINE constexpr bool breaks_away(const ForceBalance<T>& balance, T time_step_s) {
-  return !balance.closed && !balance.sliding && !is_zero(balance.resting.breakaway_N) &&
+  return balance.slips && !is_zero(balance.resting.breakaway_N) &&
          balance.resting.rested_s > T(shortest_rest_s) + T(0.5) * time_step_s;
 }
 

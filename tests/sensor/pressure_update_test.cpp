@@ -101,6 +101,7 @@ TEST(PressureUpdate, OfABreakawayIsOneMeasurementAsSureAsBreakawayForcesRepeat) 
   ForceBalance<double> breaks = balance_of(false, 0);
   breaks.resting.breakaway_N = limit_N + excess_N;
   breaks.resting.rested_s = rested_s;
+  breaks.slips = true;
   update(updated_valve(), state, breaks, timing, nothing);
   const double prior_N2 =
       squared(force_slope_N_per_Pa) *

@@ -31,7 +31,7 @@ static_assert(std::is_trivially_copyable_v<OilState<float>>);
 
 template <class T>
 constexpr bool is_oil_temperature(T temperature_K) {
-  return temperature_K > T(coldest_oil_K) && temperature_K < T(warmest_oil_K);
+  return lies_below(T(coldest_oil_K), temperature_K) && lies_below(temperature_K, T(warmest_oil_K));
 }
 
 /// To be called before the first sample, and until a plausible temperature has come. `usual_K` stands in for it.
