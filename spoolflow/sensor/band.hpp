@@ -95,9 +95,8 @@ inline constexpr double continued_flow_share_per_K = 0.002;
 
 /// The same as a force [N], by where the oil temperature lies between the layers of the tables.
 template <class T>
-SPOOLFLOW_INLINE constexpr T continued_oil_N(const MeteringEdge<T>& tables, T layer_share, const EdgePoint<T>& edge,
-                                             T pressure_difference_Pa) {
-  if (likely(within(layer_share, T(1)))) return T(0);
+constexpr T continued_oil_N(const MeteringEdge<T>& tables, T layer_share, const EdgePoint<T>& edge,
+                            T pressure_difference_Pa) {
   const T beyond_K = magnitude(layer_share - limited(layer_share, T(0), T(1))) * tables.temperature_K.spacing;
   return T(2 * continued_flow_share_per_K) * beyond_K * edge.flow_force_per_pressure_N_Pa * pressure_difference_Pa;
 }

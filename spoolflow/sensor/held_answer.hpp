@@ -68,8 +68,7 @@ template <class T>
 constexpr T most_flow(const ObserverParameters<T>& valve) {
   const MeteringEdge<T>& edges = valve.edge;
   const T highest_Pa = valve.highest_pressure_difference_Pa();
-  return edges.conductance_at(Cell<T>{1, T(0)}, highest_Pa, edges.position_m.at(edge_positions - 1)) *
-         sqrt(highest_Pa);
+  return edges.conductance_at(Cell<T>{1, T(0)}, highest_Pa, edges.position_m.at(edge_positions - 1)) * sqrt(highest_Pa);
 }
 
 }  // namespace spoolflow::sensor

@@ -28,8 +28,6 @@ struct EdgePoint {
 
 /// The logarithm of a mineral oil's viscosity is linear in 1/(T - this) [K] (Vogel's equation with Cameron's constant).
 inline constexpr double viscosity_origin_K = 178.15;
-/// No oil counts as colder [K]: it would hardly flow.
-inline constexpr double lowest_oil_K = 258.15;
 
 /// From what was measured at the highest pressure difference `measured_Pa` to a larger one: at a given opening the
 /// steady flow force is in proportion to it (paper (2) with the orifice equation), friction goes on linearly (paper
@@ -59,10 +57,9 @@ SPOOLFLOW_INLINE constexpr Cell<T> in_tables(const Cell<T>& layer) {
 /// What oil of a temperature beyond the layers adds to the share of the cell at that end: the trend of the outermost
 /// layers goes on over the logarithm of viscosity.
 template <class T>
-SPOOLFLOW_NOINLINE constexpr T continued_share(const Axis<T>& temperature_K, int cell, T temperature) {
-  const T outermost_K = temperature_K.at(2 * cell), bounded_K = larger(temperature, T(lowest_oil_K));
-  return (bounded_K - outermost_K) * temperature_K.per_spacing * (temperature_K.at(1) - T(viscosity_origin_K)) /
-         (bounded_K - T(viscosity_origin_K));
+SPOOLFLOW_INLINE constexpr T continued_share(const Axis<T>& temperature_K, int cell, T temperature) {
+  const T place = (temperature - temperature_K.first) * temperature_K.per_spacing, beyond = place - T(2 * cell);
+  return beyond - beyond * (place - T(1)) * temperature_K.spacing / (temperature - T(viscosity_origin_K));
 }
 
 /// Steady flow force (paper (2), terms 1 and 2), spool friction and flow over oil temperature [K] (layers), pressure

@@ -22,6 +22,8 @@ SPOOLFLOW_INLINE constexpr void follow_layer(const ObserverParameters<T>& valve,
   state.oil_layer = layer.cell;
   state.oil_status =
       when(!layer.inside, Status::outside_temperature) | when(!is_zero(state.oil.fault_s), Status::temperature_fault);
+  state.open = !layer.inside || !is_bench(valve.environment);
+  if (!state.open) state.force_errors.environment_N = T(0);
 }
 
 /// The oil temperature, where it is due, and what it does to the position's zero.
@@ -39,7 +41,6 @@ constexpr void begin(const ObserverParameters<T>& valve, ObserverState<T>& state
   sensor::begin(state.oil, sample.oil_temperature_K, valve.edge.temperature_K.at(1));
   state.held_currents = 0;
   state.unmoved_s = T(0);
-  follow_layer(valve, state);
   state.drift_m = drift_m(valve.position_sensor, state.oil.temperature_K);
   const T position_m = sample.position_m - state.drift_m;
   sensor::begin(state.position, position_m);
@@ -117,16 +118,18 @@ SPOOLFLOW_INLINE constexpr void follow_half_widths(const ObserverParameters<T>& 
                                                    T current_A) {
   PressureState<T>& pressure = state.pressure;
   follow_agreement(pressure);
-  T open_N = continued_oil_N(valve.edge, state.oil_layer.share, balance.edge, pressure.pressure_difference_Pa);
-  if (!is_bench(valve.environment))
-    open_N +=
-        environment_N(valve,
-                      EnvironmentEffects<T>{balance.edge, balance.actuator.force_per_position_N_per_m,
-                                            balance.actuator.force_per_current_N_per_A, balance.bounds.sliding_N,
-                                            balance.spool_friction_N + balance.armature_friction_N, balance.dithered},
-                      {in_tables(state.oil_layer), pressure.pressure_difference_Pa, position.position_m, current_A,
-                       pressure.breakaway_Pa});
-  state.force_errors.environment_N = open_N;
+  if (unlikely(state.open)) {
+    T& open_N = state.force_errors.environment_N;
+    open_N = continued_oil_N(valve.edge, state.oil_layer.share, balance.edge, pressure.pressure_difference_Pa);
+    if (!is_bench(valve.environment))
+      open_N +=
+          environment_N(valve,
+                        EnvironmentEffects<T>{balance.edge, balance.actuator.force_per_position_N_per_m,
+                                              balance.actuator.force_per_current_N_per_A, balance.bounds.sliding_N,
+                                              balance.spool_friction_N + balance.armature_friction_N, balance.dithered},
+                        {in_tables(state.oil_layer), pressure.pressure_difference_Pa, position.position_m, current_A,
+                         pressure.breakaway_Pa});
+  }
   pressure.half_widths = pressure_half_widths(
       valve.band, pressure, balance, state.friction.rest_s, position.velocity_m_per_s,
       displaced_ratio(valve.pressure, pressure, valve.friction.operation_ratio), state.force_errors.environment_N);

@@ -232,7 +232,8 @@ constexpr void widen_held(const WholeValveParameters<T>& valve, WholeValveState<
   const MeteringEdge<T>& other = now.idle.edge;
   const T highest_Pa = other.highest_pressure_difference_Pa();
   const T other_m = seen ? -position_m : other.position_m.at(edge_positions - 1);
-  const T most = other.conductance_at(other.layer_at(state.open.oil.temperature_K).cell, highest_Pa, other_m) * sqrt(highest_Pa);
+  const T most =
+      other.conductance_at(other.layer_at(state.open.oil.temperature_K).cell, highest_Pa, other_m) * sqrt(highest_Pa);
   if (!seen || position_m < T(0)) {
     open_band(held, {-most, T(0)}, seen, time_step_s);
   }
