@@ -25,6 +25,7 @@
 #include "spoolflow/export/sensor_fmu.hpp"
 #include "spoolflow/export/st/st_program.hpp"
 #include "spoolflow/export/valve_fmu.hpp"
+#include "spoolflow/recording/file_format.hpp"
 #include "spoolflow/rig/bench/virtual_campaign.hpp"
 #include "spoolflow/units/conversion.hpp"
 
@@ -189,7 +190,7 @@ void export_asked(const ExportArguments& arguments) {
 }
 
 /// Whether a file is an image of parameters, or would be one: what is named .bin, or holds nothing but what an erased
-/// flash does. Standard input and pipes are not asked.
+/// flash does and is not named as a recording. Standard input and pipes are not asked.
 bool holds_image(const std::string& file) {
   std::error_code error;
   if (file == "-" || !std::filesystem::is_regular_file(file, error)) return false;
@@ -197,7 +198,8 @@ bool holds_image(const std::string& file) {
   std::array<char, sensor::image_header_bytes> beginning{};
   in.read(beginning.data(), beginning.size());
   const std::string_view read(beginning.data(), static_cast<std::size_t>(in.gcount()));
-  return exports::begins_as_image(read) || fs::path(file).extension() == ".bin" || exports::is_erased(read);
+  return exports::begins_as_image(read) || fs::path(file).extension() == ".bin" ||
+         (exports::is_erased(read) && !recording::format_by_ending(file));
 }
 
 template <std::size_t Room>

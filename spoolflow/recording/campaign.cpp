@@ -39,15 +39,18 @@ CampaignInstruments instruments_of(const TomlTable& table) {
   table.allow_only({"position_uncertainty_mm", "current_uncertainty_A", "force_uncertainty_N",
                     "pressure_uncertainty_bar", "temperature_uncertainty_K"});
   CampaignInstruments out;
-  if (const auto written = table.optional_positive("position_uncertainty_mm")) {
+  const auto read = [&](std::string_view key, double least, double most, std::string_view unit) {
+    const std::string otherwise =
+        fmt::format("give the half width at 95 % in {}, as the instrument's data sheet has it", unit);
+    return table.optional_within(key, {least, most, otherwise});
+  };
+  if (const auto written = read("position_uncertainty_mm", 1e-4, 0.5, "mm"))
     out.position_uncertainty_m = units::m_from_mm(*written);
-  }
-  out.current_uncertainty_A = table.optional_positive("current_uncertainty_A");
-  out.force_uncertainty_N = table.optional_positive("force_uncertainty_N");
-  if (const auto written = table.optional_positive("pressure_uncertainty_bar")) {
+  out.current_uncertainty_A = read("current_uncertainty_A", 1e-4, 0.5, "A");
+  out.force_uncertainty_N = read("force_uncertainty_N", 1e-3, 50, "N");
+  if (const auto written = read("pressure_uncertainty_bar", 1e-3, 20, "bar"))
     out.pressure_uncertainty_Pa = units::Pa_from_bar(*written);
-  }
-  out.temperature_uncertainty_K = table.optional_positive("temperature_uncertainty_K");
+  out.temperature_uncertainty_K = read("temperature_uncertainty_K", 0.01, 20, "K");
   return out;
 }
 

@@ -21,21 +21,14 @@ bool simulated_of(const TomlTable& table) {
   return origin == "simulated";
 }
 
-/// A number that no valve or oil has, beside what may be meant.
-void require_range(const TomlTable& table, std::string_view key, std::optional<double> value, double lowest,
-                   double highest, std::string_view otherwise) {
-  if (!value || (*value >= lowest && *value <= highest)) return;
-  throw RecordingError(fmt::format("{}: {} = {:g} is not between {:g} and {:g}; {}", table.place(key), key, *value,
-                                   lowest, highest, otherwise));
-}
-
 /// Of a valve whose stroke is known.
 std::optional<double> open_stop_of(const TomlTable& table, double stroke_m) {
-  const auto written = table.optional_positive("open_stop_mm");
   constexpr double least_share = 0.5, most_share = 3;
   const double stroke_mm = units::mm_from_m(stroke_m);
-  require_range(table, "open_stop_mm", written, least_share * stroke_mm, most_share * stroke_mm,
-                "give what the position channel shows in mm where the spool meets its open stop");
+  const auto written =
+      table.optional_within("open_stop_mm", {least_share * stroke_mm, most_share * stroke_mm,
+                                             "give what the position channel shows in mm where the spool meets its "
+                                             "open stop"});
   return written ? std::optional(units::m_from_mm(*written)) : std::nullopt;
 }
 
@@ -52,22 +45,18 @@ std::optional<std::string> direction_of(const TomlTable& table) {
 
 CampaignValve valve_of(const TomlTable& table) {
   table.allow_only({"name", "rated_flow_L_min", "stroke_mm", "direction", "origin", "open_stop_mm", "moving_mass_g"});
-  CampaignValve valve{table.text("name"), units::m3_per_s_from_L_per_min(table.positive("rated_flow_L_min")),
-                      units::m_from_mm(table.positive("stroke_mm")), direction_of(table).value_or("b"),
+  constexpr NumberRange flows_L_min{0.05, 10000,
+                                    "give it in L/min, where it stands in m3/s times 60000, in gal/min times 3.785"};
+  constexpr NumberRange strokes_mm{0.1, 100,
+                                   "give it in mm, where it stands in m times 1000, in um divided by 1000; no spool "
+                                   "valve has another stroke"};
+  CampaignValve valve{table.text("name"), units::m3_per_s_from_L_per_min(table.within("rated_flow_L_min", flows_L_min)),
+                      units::m_from_mm(table.within("stroke_mm", strokes_mm)), direction_of(table).value_or("b"),
                       simulated_of(table)};
-  constexpr double least_flow = 0.05, most_flow = 10000;  // [L/min]
-  require_range(table, "rated_flow_L_min", table.number("rated_flow_L_min"), least_flow, most_flow,
-                "give it in L/min, where it stands in m3/s times 60000, in gal/min times 3.785");
-  constexpr double longest_stroke_m = 0.1;
-  if (valve.stroke_m > longest_stroke_m) {
-    throw RecordingError(fmt::format("{}: a stroke of {} mm is longer than any spool valve's; give it in mm",
-                                     table.place("stroke_mm"), units::mm_from_m(valve.stroke_m)));
-  }
   valve.open_stop_m = open_stop_of(table, valve.stroke_m);
-  constexpr double lightest_g = 2, heaviest_g = 5000, g_per_kg = 1000;
-  const auto mass_g = table.optional_positive("moving_mass_g");
-  require_range(table, "moving_mass_g", mass_g, lightest_g, heaviest_g,
-                "give spool, push rod and armature together in g, where it stands in kg times 1000");
+  constexpr double g_per_kg = 1000;
+  const auto mass_g = table.optional_within(
+      "moving_mass_g", {2, 5000, "give spool, push rod and armature together in g, where it stands in kg times 1000"});
   if (mass_g) valve.moving_mass_kg = *mass_g / g_per_kg;
   return valve;
 }
@@ -92,16 +81,15 @@ CampaignValve unit_valve_of(const TomlTable& table, CampaignValve type) {
 
 CampaignFluid fluid_of(const TomlTable& table) {
   table.allow_only({"name", "density_15C_kg_per_m3", "viscosity_40C_mm2_per_s", "viscosity_100C_mm2_per_s"});
-  constexpr double lightest = 500, heaviest = 2000, thinnest = 0.3, thickest = 5000;
-  require_range(table, "density_15C_kg_per_m3", table.optional_positive("density_15C_kg_per_m3"), lightest, heaviest,
-                "give it in kg/m3 (870 of mineral oil), where it stands in g/cm3 or kg/L times 1000");
-  const auto viscosity = [&table](std::string_view key) -> std::optional<double> {
-    const auto written = table.optional_positive(key);
-    require_range(table, key, written, thinnest, thickest,
-                  "give it in mm2/s, which is cSt (46 of ISO VG 46 at 40 degC), where it stands in m2/s times 1e6");
+  constexpr NumberRange densities{500, 2000,
+                                  "give it in kg/m3 (870 of mineral oil), where it stands in g/cm3 or kg/L times 1000"};
+  constexpr NumberRange viscosities{
+      0.3, 5000, "give it in mm2/s, which is cSt (46 of ISO VG 46 at 40 degC), where it stands in m2/s times 1e6"};
+  const auto viscosity = [&](std::string_view key) -> std::optional<double> {
+    const auto written = table.optional_within(key, viscosities);
     return written ? std::optional(units::m2_per_s_from_mm2_per_s(*written)) : std::nullopt;
   };
-  CampaignFluid out{table.optional_text("name").value_or(""), table.optional_positive("density_15C_kg_per_m3"),
+  CampaignFluid out{table.optional_text("name").value_or(""), table.optional_within("density_15C_kg_per_m3", densities),
                     viscosity("viscosity_40C_mm2_per_s"), viscosity("viscosity_100C_mm2_per_s")};
   if (out.viscosity_40C_m2_per_s && out.viscosity_100C_m2_per_s &&
       !(*out.viscosity_40C_m2_per_s > *out.viscosity_100C_m2_per_s)) {

@@ -16,26 +16,34 @@ namespace {
 
 constexpr double standard_gravity_m_per_s2 = 9.80665;
 
-/// One key: what it sets, SI per unit of it, and the largest value that makes sense.
+/// One key: what it sets, SI per unit of it, and the least value above zero and the largest that make sense.
 struct Key {
   const char* name;
   double Environment::*member;
   double per_unit;
+  double least;
   double largest;
 };
 
-constexpr std::array keys{Key{"position_zero_um", &Environment::position_zero_m, 1e-6, 1000},
-                          Key{"position_gain_percent", &Environment::position_gain, 0.01, 20},
-                          Key{"viscosity_percent", &Environment::viscosity, 0.01, 200},
-                          Key{"temperature_K", &Environment::temperature_K, 1, 60},
-                          Key{"density_percent", &Environment::density, 0.01, 30},
-                          Key{"current_gain_percent", &Environment::current_gain, 0.01, 20},
-                          Key{"pwm_ripple_percent", &Environment::pwm_ripple, 0.01, 100},
-                          Key{"leakage_L_min", &Environment::leakage_m3_per_s, 1 / 60000.0, 100},
-                          Key{"friction_percent", &Environment::friction, 0.01, 200},
-                          Key{"dithered_loop_percent", &Environment::dithered_loop, 0.01, 200},
-                          Key{"vibration_g", &Environment::vibration_m_per_s2, standard_gravity_m_per_s2, 50},
-                          Key{"ripple_bar", &Environment::ripple_Pa, 1e5, 200}};
+constexpr std::array keys{Key{"position_zero_um", &Environment::position_zero_m, 1e-6, 0.5, 1000},
+                          Key{"position_gain_percent", &Environment::position_gain, 0.01, 0.05, 20},
+                          Key{"viscosity_percent", &Environment::viscosity, 0.01, 1, 200},
+                          Key{"temperature_K", &Environment::temperature_K, 1, 0.1, 60},
+                          Key{"density_percent", &Environment::density, 0.01, 0.1, 30},
+                          Key{"current_gain_percent", &Environment::current_gain, 0.01, 0.02, 20},
+                          Key{"pwm_ripple_percent", &Environment::pwm_ripple, 0.01, 0.5, 100},
+                          Key{"leakage_L_min", &Environment::leakage_m3_per_s, 1 / 60000.0, 1e-3, 100},
+                          Key{"friction_percent", &Environment::friction, 0.01, 2, 200},
+                          Key{"dithered_loop_percent", &Environment::dithered_loop, 0.01, 2, 200},
+                          Key{"vibration_g", &Environment::vibration_m_per_s2, standard_gravity_m_per_s2, 0.01, 50},
+                          Key{"ripple_bar", &Environment::ripple_Pa, 1e5, 0.01, 200}};
+
+/// As the key ends: "percent" of position_gain_percent.
+std::string unit_of(const std::string& key) {
+  const std::string written = key.substr(key.rfind('_') + 1);
+  if (written == "min") return "L/min";
+  return written;
+}
 
 Environment of_kind(const std::string& kind, const std::string& place) {
   if (kind == "bench") return {};
@@ -63,9 +71,17 @@ Environment from_table(const TomlTable& table, const std::string& usual_kind) {
       throw RecordingError(fmt::format("{}: {} = {} is out of range; give the half width at 95 %, 0 to {}",
                                        table.place(key.name), key.name, *written, key.largest));
     }
+    if (*written > 0 && *written < key.least) {
+      throw RecordingError(
+          fmt::format("{}: {} = {} is nearer than anybody knows it; give the half width at 95 % in {}, {} to {}, or 0 "
+                      "where nothing is left open",
+                      table.place(key.name), key.name, *written, unit_of(key.name), key.least, key.largest));
+    }
     out.*key.member = *written * key.per_unit;
   }
-  if (const auto written = table.optional_positive("highest_pressure_bar"))
+  constexpr NumberRange pressures_bar{
+      1, 1000, "give the highest pressure difference in bar, where it stands in MPa times 10, in Pa divided by 1e5"};
+  if (const auto written = table.optional_within("highest_pressure_bar", pressures_bar))
     out.highest_Pa = units::Pa_from_bar(*written);
   return out;
 }

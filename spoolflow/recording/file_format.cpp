@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -78,6 +81,12 @@ bool could_begin_text(std::string_view mark) {
          std::ranges::all_of(mark, [](char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '*'; });
 }
 
+/// Text holds no zero byte, and a table of numbers more than a few bytes.
+bool could_be_text(std::string_view beginning) {
+  constexpr std::size_t few = 8;
+  return beginning.size() >= few && beginning.find('\0') == std::string_view::npos;
+}
+
 /// Whether the first part of a zip archive is an array of NumPy.
 bool begins_npz(std::string_view beginning) {
   constexpr std::size_t head_bytes = 30, name_length_at = 26;
@@ -97,6 +106,19 @@ std::string_view name(FileFormat format) {
   return names[static_cast<std::size_t>(format)];
 }
 
+std::optional<FileFormat> format_by_ending(const std::filesystem::path& file) {
+  constexpr std::array endings{
+      std::pair{".mat", FileFormat::mat},  std::pair{".h5", FileFormat::hdf5},   std::pair{".hdf5", FileFormat::hdf5},
+      std::pair{".hdf", FileFormat::hdf5}, std::pair{".tdms", FileFormat::tdms}, std::pair{".mf4", FileFormat::mdf4},
+      std::pair{".mdf", FileFormat::mdf4}, std::pair{".xlsx", FileFormat::xlsx}, std::pair{".xlsm", FileFormat::xlsx}};
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  for (const auto& [known, format] : endings) {
+    if (ending == known) return format;
+  }
+  return std::nullopt;
+}
+
 FileFormat format_of(std::string_view beginning, const std::filesystem::path& file) {
   if (beginning.starts_with("MATLAB 5.0 MAT-file") || beginning.starts_with("MATLAB 7.3 MAT-file") ||
       has_mat_version(beginning)) {
@@ -114,8 +136,13 @@ FileFormat format_of(std::string_view beginning, const std::filesystem::path& fi
     const bool certain = !could_begin_text(format.mark) || beginning.find('\0') != std::string_view::npos;
     if (certain && beginning.starts_with(format.mark)) refuse_format(format.what, format.remedy, file);
   }
-  if (file.extension() == ".mat" && beginning.find('\0') != std::string_view::npos) return FileFormat::mat;
-  return FileFormat::csv;
+  const std::optional<FileFormat> by_ending = format_by_ending(file);
+  if (!by_ending || beginning.empty() || could_be_text(beginning)) return FileFormat::csv;
+  if (*by_ending == FileFormat::mat) return FileFormat::mat;  // of version 4, which has no mark
+  throw RecordingError(
+      fmt::format("{}: ends in {}, but does not begin as {} files do: it is damaged or cut off at its beginning, or is "
+                  "no recording; copy it again from where it was recorded, or save the recording there again",
+                  file.string(), file.extension().string(), name(*by_ending)));
 }
 
 }  // namespace spoolflow::recording

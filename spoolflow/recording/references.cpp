@@ -109,7 +109,7 @@ std::vector<TimeMark> marks_of(const TomlTable& table) {
   return out;
 }
 
-constexpr Range any_percent{0, 20, "the half width at 95 % in percent"};
+constexpr Range any_percent{0.05, 20, "the half width at 95 % in percent"};
 constexpr Range any_leakage{0, 20, "the half width at 95 % in L/min"};
 
 void read_stroke(const TomlTable& table, Reference& out) {

@@ -149,6 +149,18 @@ std::optional<double> TomlTable::optional_positive(std::string_view key) const {
   return value;
 }
 
+std::optional<double> TomlTable::optional_within(std::string_view key, const NumberRange& range) const {
+  const auto value = optional_positive(key);
+  if (!value || (*value >= range.least && *value <= range.most)) return value;
+  throw RecordingError(fmt::format("{}: {} = {:g} is not between {:g} and {:g}; {}", place(key), key, *value,
+                                   range.least, range.most, range.otherwise));
+}
+
+double TomlTable::within(std::string_view key, const NumberRange& range) const {
+  (void)number(key);
+  return *optional_within(key, range);
+}
+
 double TomlTable::positive(std::string_view key) const {
   (void)number(key);
   return *optional_positive(key);

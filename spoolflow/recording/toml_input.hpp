@@ -28,6 +28,12 @@ inline constexpr std::size_t deepest_toml = 32;                          ///< br
 /// "campaign.toml, line 17".
 [[nodiscard]] std::string place_of(const toml::node& node, const std::filesystem::path& file);
 
+/// The numbers that a key may have, and what to give where one is outside: "give it in mm".
+struct NumberRange {
+  double least, most;
+  std::string_view otherwise;
+};
+
 /// One table of a file; `name` is as in the file: "[valve]".
 struct TomlTable {
   const toml::table& table;
@@ -46,6 +52,9 @@ struct TomlTable {
   /// As number(), and above zero.
   [[nodiscard]] double positive(std::string_view key) const;
   [[nodiscard]] std::optional<double> optional_positive(std::string_view key) const;
+  /// As positive(), and within the range.
+  [[nodiscard]] double within(std::string_view key, const NumberRange& range) const;
+  [[nodiscard]] std::optional<double> optional_within(std::string_view key, const NumberRange& range) const;
   [[nodiscard]] std::string place(std::string_view key) const;
 };
 

@@ -96,6 +96,20 @@ TEST(Campaign, RefusesNumbersThatNoValveAndNoOilHas) {
               HasSubstr("viscosity_40C_mm2_per_s = 6.8 is not above viscosity_100C_mm2_per_s = 46"));
   EXPECT_THAT(refused_campaign("[valve]\nname = \"A\"\nrated_flow_L_min = 0.0013\nstroke_mm = 2.4\n"),
               HasSubstr("where it stands in m3/s times 60000"));
+  for (const char* stroke : {"0.0024", "2400"})
+    EXPECT_THAT(refused_campaign("[valve]\nname = \"A\"\nrated_flow_L_min = 80\nstroke_mm = " + std::string(stroke)),
+                HasSubstr("is not between 0.1 and 100; give it in mm"));
+}
+
+TEST(Campaign, RefusesUncertaintiesThatNoInstrumentHas) {
+  for (const char* line : {"position_uncertainty_mm = 5e-6", "position_uncertainty_mm = 5", "current_uncertainty_A = 2",
+                           "force_uncertainty_N = 1e-4", "pressure_uncertainty_bar = 1e4",
+                           "temperature_uncertainty_K = 300", "temperature_uncertainty_K = 0.001"})
+    EXPECT_THAT(refused_campaign(with_recording("protocol = \"spring\"\nfile = \"spring.csv\"\n[instruments]\n" +
+                                                std::string(line))),
+                testing::AllOf(HasSubstr("campaign.toml, line 9: "), HasSubstr("is not between"),
+                               HasSubstr("give the half width at 95 %")))
+        << line;
 }
 
 TEST(Campaign, MayDeclareTheOpenStopAndTheMovingMass) {

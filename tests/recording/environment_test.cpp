@@ -57,6 +57,13 @@ TEST(Environment, NamesFileAndLineOfWhatItRefuses) {
   EXPECT_THAT(refused_environment("[environment]\nvibration_g = -1\n"),
               HasSubstr("line 2: vibration_g = -1 is out of range"));
   EXPECT_THAT(refused_environment("[environment]\nposition_gain_percent = 200\n"), HasSubstr("0 to 20"));
+  EXPECT_THAT(refused_environment("[environment]\nposition_zero_um = 0.008\n"),
+              HasSubstr("line 2: position_zero_um = 0.008 is nearer than anybody knows it; give the half width at 95 % "
+                        "in um, 0.5 to 1000, or 0 where nothing is left open"));
+  EXPECT_THAT(refused_environment("[environment]\nviscosity_percent = 0.2\n"), HasSubstr("in percent, 1 to 200"));
+  for (const char* pressure : {"7e6", "0.07"})
+    EXPECT_THAT(refused_environment("[environment]\nhighest_pressure_bar = " + std::string(pressure)),
+                HasSubstr("is not between 1 and 1000; give the highest pressure difference in bar"));
   EXPECT_THAT(refused_environment("[environment]\nkind = \"field\"\n"), HasSubstr("allowed: \"bench\""));
   EXPECT_THAT(refused_environment("environment = 3\n"), HasSubstr("environment is a table"));
   EXPECT_THAT(refused_environment("[valve]\n"), HasSubstr("has no table [environment]"));

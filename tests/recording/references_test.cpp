@@ -67,6 +67,9 @@ TEST(References, WhatIsWrongIsNamedWithItsLineAndWhatIsAllowed) {
   EXPECT_THAT(refused_reference(stroke + "length_mm = 650\n", "begin_s,end_s\n1,2\n"), HasSubstr("area_cm2"));
   EXPECT_THAT(refused_reference(stroke + "area_cm2 = -40\nlength_mm = 650\n", "begin_s,end_s\n1,2\n"),
               HasSubstr("line 6"));
+  EXPECT_THAT(
+      refused_reference("[[reference]]\nkind = \"meter\"\nuncertainty_percent = 0.01\n"),
+      HasSubstr("uncertainty_percent = 0.01 is out of range; give the half width at 95 % in percent, 0.05 to 20"));
   EXPECT_THAT(refused_reference(stroke + "area_cm2 = 40\nlength_mm = 0.65\n", "begin_s,end_s\n1,2\n"),
               HasSubstr("length_mm = 0.65 is out of range"));
   EXPECT_THAT(refused_reference(stroke + "area_cm2 = 40\nlength_mm = 650\nlength_uncertainty_mm = 131\n",

@@ -16,6 +16,8 @@ namespace {
 constexpr double um_per_m = 1e6;
 /// unit_parameters() is linear enough for some standard deviations of this.
 constexpr double largest_share = 0.3, largest_length_m = 5e-5, largest_logarithm = 1.5;
+/// No series is so much more alike, or less, than usual ones.
+constexpr double usual_over_least = 200, most_over_usual = 10;
 
 std::string key_of(const VariationAbout& about) {
   return std::string(about.name) + (about.unit == "m" ? "_um" : "");
@@ -39,13 +41,20 @@ Deviations tolerances_from(const recording::CampaignTolerances& written) {
           fmt::format("{}: [tolerances] has no key {}; allowed: {}", written.place, key, all_keys()));
     }
     const bool length = found->unit == "m";
-    const double most = length ? largest_length_m * um_per_m : found->unit == "ln" ? largest_logarithm : largest_share;
-    if (!(value <= most)) {
-      throw CalibrationError(
-          fmt::format("{}: {} = {} is more than {:g}, one standard deviation between units of a type", written.place,
-                      key, value, most));
+    const double scale = length ? um_per_m : 1, usual = scale * found->tolerance;
+    const double linear = length                ? largest_length_m * um_per_m
+                          : found->unit == "ln" ? largest_logarithm
+                                                : largest_share;
+    const double least = usual / usual_over_least, most = std::min(linear, most_over_usual * usual);
+    if (!(value >= least && value <= most)) {
+      throw CalibrationError(fmt::format(
+          "{}: {} = {} is not between {:g} and {:g}; give one standard deviation between units of a type, {}",
+          written.place, key, value, least, most,
+          length                ? "in um, where it stands in mm times 1000"
+          : found->unit == "ln" ? "a natural logarithm"
+                                : "a share: 0.02 of 2 %"));
     }
-    out[static_cast<std::size_t>(found - all_variations().begin())] = length ? value / um_per_m : value;
+    out[static_cast<std::size_t>(found - all_variations().begin())] = value / scale;
   }
   return out;
 }

@@ -89,5 +89,20 @@ TEST(ForeignFiles, AreRefusedByTheirFirstBytes) {
     EXPECT_THAT(refused_file(content), HasSubstr(kind)) << kind;
 }
 
+TEST(ForeignFiles, WhoseBeginningIsDamagedAreRefusedByWhatTheirEndingSays) {
+  for (const auto& [ending, kind] : std::vector<std::pair<std::string, std::string>>{
+           {".tdms", "TDMS"}, {".mf4", "MDF 4"}, {".h5", "HDF5"}, {".HDF5", "HDF5"}, {".xlsx", "Excel"}}) {
+    for (const std::string& content : {std::string(4096, '\0'), "\x89HDE\r\n\x1A\n\0\0\0\1"s, "TDS"s}) {
+      const TemporaryFile file("run" + ending, content);
+      EXPECT_THAT(refusal([&] { (void)open_sample_table(file.path()); }),
+                  testing::AllOf(HasSubstr("run" + ending + ": ends in " + ending + ", but does not begin as " + kind +
+                                           " files do: it is damaged or cut off"),
+                                 HasSubstr("copy it again from where it was recorded")));
+    }
+    const TemporaryFile text("run" + ending, "time_s,current_A\n0,1\n0.001,1\n");
+    EXPECT_EQ(open_sample_table(text.path()).table->columns().size(), 2u);
+  }
+}
+
 }  // namespace
 }  // namespace spoolflow::recording
