@@ -237,7 +237,8 @@ std::string dead_channel(const Recording& run, double stroke_m) {
 /// What the relations of a run say against it.
 struct ErrorFinding {
   bool cannot_be;
-  bool of_position;  ///< an error of the position explains it: its noise is in that unit, too
+  bool explained;    ///< as a channel's error, which all else that this channel shows has, too
+  bool of_position;  ///< that of the position
   std::string text;
 };
 
@@ -253,11 +254,11 @@ std::optional<ErrorFinding> error_finding(RunTrial& trial) {
   if (worst->of.starts_with(largest_opening) && !all) return std::nullopt;
   const bool cannot_be = worst->over_limit > surely;
   if (explains) {
-    return ErrorFinding{cannot_be, found->of_position,
+    return ErrorFinding{cannot_be, true, found->of_position,
                         fmt::format("{}, {}", found->text, text(deciding_change(now, found->deviations)))};
   }
   return ErrorFinding{
-      cannot_be, false,
+      cannot_be, false, false,
       fmt::format("{} is {}, which no usual recording error of one channel explains: is the model of this valve, and "
                   "is every channel in its unit?",
                   worst->of, worst->shown)};
@@ -332,7 +333,9 @@ std::vector<Finding> run_findings(const std::vector<KnownValve>& valve, const Ru
   if (!(error && error->of_position)) add(false, coarse);
   add(false, low_pass_finding(run.steady_lines(), valve.front().position_noise_m));
   const SteadyValve known{valve.front().position_noise_m, {valve.front().resistance_Ohm, valve.back().resistance_Ohm}};
-  for (const std::string& line : steady_line_findings(run.steady_lines(), known)) add(false, line);
+  if (!(error && error->explained && error->cannot_be)) {
+    for (const std::string& line : steady_line_findings(run.steady_lines(), known)) add(false, line);
+  }
   if (error) add(error->cannot_be, error->text);
   return out;
 }

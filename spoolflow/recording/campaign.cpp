@@ -54,6 +54,15 @@ CampaignInstruments instruments_of(const TomlTable& table) {
   return out;
 }
 
+CampaignInstruments unit_instruments_of(const TomlTable& table) {
+  table.allow_only({"flow_uncertainty_percent"});
+  constexpr NumberRange percents{
+      0.05, 20, "give the half width at 95 % in percent of the reading, where it is a share times 100"};
+  CampaignInstruments out;
+  out.flow_uncertainty_share = 0.01 * table.within("flow_uncertainty_percent", percents);
+  return out;
+}
+
 CampaignLoad load_of(const TomlTable& table) {
   table.allow_only({"area_ratio"});
   constexpr double least = 0.1, most = 10;
@@ -182,13 +191,12 @@ TomlTable table_of(const TomlTable& document, std::string_view key) {
   return {*table, document.file, fmt::format("[{}]", key)};
 }
 
-/// All but the valve, which `campaign` has.
+/// All but valve and instruments.
 void read_rest(const TomlTable& document, OutsideFiles outside, Campaign& campaign) {
   const toml::table& read = document.table;
   const std::filesystem::path& file = document.file;
   campaign.file = file;
   if (read.contains("fluid")) campaign.fluid = fluid_of(table_of(document, "fluid"));
-  if (read.contains("instruments")) campaign.instruments = instruments_of(table_of(document, "instruments"));
   if (read.contains("channels")) campaign.channels = read_channels(table_of(document, "channels"));
   if (read.contains("load")) campaign.load = load_of(table_of(document, "load"));
   if (read.contains("environment")) campaign.environment = environment_of(document, "bench");
@@ -237,6 +245,7 @@ Campaign read_campaign(const std::filesystem::path& file, OutsideFiles outside) 
   document.allow_only({"valve", "fluid", "instruments", "load", "environment", "tolerances", "channels", "recording"});
   Campaign campaign;
   campaign.valve = valve_of(table_of(document, "valve"));
+  if (read.contains("instruments")) campaign.instruments = instruments_of(table_of(document, "instruments"));
   read_rest(document, outside, campaign);
   if (!campaign.environment) campaign.environment = environment_of(document, "bench");
   return campaign;
@@ -251,6 +260,11 @@ Campaign read_unit_campaign(const std::filesystem::path& file, const CampaignVal
   campaign.valve.name = std::filesystem::absolute(file).lexically_normal().parent_path().filename().string();
   if (const auto name = document.optional_text("name")) campaign.valve.name = *name;
   if (read.contains("valve")) campaign.valve = unit_valve_of(table_of(document, "valve"), campaign.valve);
+  if (read.contains("instruments")) {
+    TomlTable instruments = table_of(document, "instruments");
+    instruments.name = "[instruments] of a unit, whose other instruments its type's campaign has";
+    campaign.instruments = unit_instruments_of(instruments);
+  }
   read_rest(document, outside, campaign);
   return campaign;
 }

@@ -39,6 +39,7 @@ struct CampaignInstruments {
   std::optional<double> force_uncertainty_N;
   std::optional<double> pressure_uncertainty_Pa;
   std::optional<double> temperature_uncertainty_K;
+  std::optional<double> flow_uncertainty_share{};  ///< of a unit's flow meter, of its reading
 };
 
 /// What the valve moves at its ports.
@@ -92,7 +93,8 @@ enum class OutsideFiles : std::uint8_t { refused, allowed };
 [[nodiscard]] Campaign read_campaign(const std::filesystem::path& file, OutsideFiles outside = OutsideFiles::refused);
 
 /// The recordings of one unit of a type. [valve] may be absent, or say no more than the unit's name; so may the whole
-/// file, by `name = "…"` at its top. All else is the type's, and the name is the file's folder where none is given.
+/// file, by `name = "…"` at its top. [instruments] has its flow meter alone. All else is the type's, and the name is
+/// the file's folder where none is given.
 [[nodiscard]] Campaign read_unit_campaign(const std::filesystem::path& file, const CampaignValve& type,
                                           OutsideFiles outside = OutsideFiles::refused);
 

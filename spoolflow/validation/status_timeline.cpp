@@ -66,7 +66,9 @@ const char* meaning(sensor::Status bit) {
     case Status::sample_missing:
       return "An input was missing; the last flow was held, and its band opened.";
     case Status::time_fault:
-      return "The time did not advance; where it ran backwards, the last answer was held. Look at the time stamps.";
+      return "The time stood still, ran backwards (the last answer was held), or went on by 9 ms or more, for which "
+             "the "
+             "sensor is not made. Look at the time stamps, and sample at 1 kHz.";
     case Status::other_direction:
       return "The spool opens the direction of flow of which the model knows nothing: the band is all that may flow "
              "there. "

@@ -12,6 +12,7 @@
 
 #include "spoolflow/numerics/meter_lag.hpp"
 #include "spoolflow/plausibility/limits.hpp"
+#include "tests/plausibility/example_campaign.hpp"
 #include "tests/plausibility/finding_texts.hpp"
 #include "tests/plausibility/rig_benches.hpp"
 
@@ -141,6 +142,15 @@ TEST(RunFindings, NameTwoColumnsInEachOthersPlaceEachReadInTheOthersUnit) {
   EXPECT_THAT(text(Channel::position, Channel::current, 1e-3), testing::HasSubstr("position and current look swapped"));
   EXPECT_THAT(text(Channel::flow_reference, Channel::pressure_difference, 1 / 60e3 / 1e5),
               testing::HasSubstr("flow_reference and pressure_difference look swapped"));
+}
+
+TEST(RunFindings, BlameNothingElseOnColumnsInEachOthersPlace) {
+  const recording::Recording& sound = example().recordings.at("ramp_60bar.h5");
+  recording::Recording run = sound;
+  std::swap(run.column(Channel::current), run.column(Channel::voltage));
+  const std::string found = all_texts(run_findings({known_valve(example().benches())}, means_of(run), "run.h5"));
+  EXPECT_THAT(found, testing::HasSubstr("current and voltage look swapped"));
+  EXPECT_THAT(found, testing::Not(testing::HasSubstr("beats")));
 }
 
 TEST(RunFindings, NameOilInAnotherUnitAndNoneOfOilThatIsOnlyColdOrHot) {

@@ -104,6 +104,17 @@ TEST(CoarseCurrent, IsNamedWithItsStepInARunAndInACampaign) {
   EXPECT_THAT(grid_of(in_steps(ramp(), Channel::current, 0.005)).coarse_current(), IsEmpty());
 }
 
+/// A ramp of 40 mA from one sample to the next.
+TEST(CoarseCurrent, IsNoneOfAHandfulOfSamples) {
+  Recording run;
+  for (int k = 0; k < 5; ++k) {
+    run.column(Channel::time).push_back(1e-3 * k);
+    run.column(Channel::current).push_back(0.5 + 0.04 * k);
+    run.column(Channel::position).push_back(0);
+  }
+  EXPECT_THAT(grid_of(run).coarse_current(), IsEmpty());
+}
+
 /// The noise of an idle coil is few steps high.
 TEST(CoarseCurrent, IsNoneOfAnIdleCoilBesideTheOther) {
   Recording run;

@@ -101,6 +101,19 @@ TEST(Campaign, RefusesNumbersThatNoValveAndNoOilHas) {
                 HasSubstr("is not between 0.1 and 100; give it in mm"));
 }
 
+TEST(Campaign, OfAUnitStatesItsFlowMeterAlone) {
+  const auto unit = [](std::string_view line) {
+    const TemporaryFile file("unit.toml", "[instruments]\n" + std::string(line) +
+                                              "\n[[recording]]\nprotocol = \"operation\"\nfile = \"run.csv\"\n");
+    std::ofstream(file.folder() / "run.csv") << "time_s\n";
+    return read_unit_campaign(file.path(), {"A", 80.0 / 60000, 0.0024}).instruments.flow_uncertainty_share.value();
+  };
+  EXPECT_DOUBLE_EQ(unit("flow_uncertainty_percent = 3"), 0.03);
+  EXPECT_THAT(refusal([&] { (void)unit("flow_uncertainty_percent = 0.03"); }), HasSubstr("is a share times 100"));
+  EXPECT_THAT(refusal([&] { (void)unit("position_uncertainty_mm = 0.01"); }),
+              HasSubstr("unit.toml, line 2: unknown key 'position_uncertainty_mm' in [instruments] of a unit"));
+}
+
 TEST(Campaign, RefusesUncertaintiesThatNoInstrumentHas) {
   for (const char* line : {"position_uncertainty_mm = 5e-6", "position_uncertainty_mm = 5", "current_uncertainty_A = 2",
                            "force_uncertainty_N = 1e-4", "pressure_uncertainty_bar = 1e4",

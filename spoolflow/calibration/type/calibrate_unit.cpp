@@ -212,12 +212,36 @@ std::vector<UnitRun> runs_of(const model::Model& type, const std::string& direct
   for (const UnitRun& run : runs) {
     if (type.whole() && run.direction == through_centre) {
       parts.push_back(one_side(*run.recording, direction, type.valve.stroke_m).run);
-      out.push_back({&parts.back(), run.protocol, direction});
+      out.push_back({&parts.back(), run.protocol, direction, run.meter_gain_deviation});
     } else if (!type.whole() || run.direction == direction) {
       out.push_back(run);
     }
   }
   return out;
+}
+
+/// One standard deviation of the unit's flow meter, as a share of the reading.
+double meter_gain_deviation_of(const recording::Campaign& unit) {
+  constexpr double deviations_at_95 = 2;
+  const std::optional<double>& stated = unit.instruments.flow_uncertainty_share;
+  return stated ? *stated / deviations_at_95 : meter_gain_uncertainty;
+}
+
+/// A unit is measured in the oil that its type's tables are of.
+void require_oil_of_type(const recording::CampaignFluid& fluid, const model::Model& type, const std::string& file) {
+  const auto require = [&](const char* key, std::optional<double> of_unit, std::optional<double> of_type,
+                           double scale) {
+    constexpr double alike = 1e-3;
+    if (!of_unit || (of_type && std::abs(*of_unit - *of_type) <= alike * *of_type)) return;
+    throw CalibrationError(fmt::format(
+        "{}: {} = {:g} in [fluid], and the type's campaign has {}; the tables are of the type's oil: leave [fluid] out "
+        "where the unit was measured in it, or calibrate a type in this oil",
+        file, key, *of_unit * scale, of_type ? fmt::format("{:g}", *of_type * scale) : "none"));
+  };
+  constexpr double mm2_per_m2 = 1e6;
+  require("density_15C_kg_per_m3", fluid.density_15C_kg_per_m3, type.fluid.density_15C_kg_per_m3, 1);
+  require("viscosity_40C_mm2_per_s", fluid.viscosity_40C_m2_per_s, type.fluid.viscosity_40C_m2_per_s, mm2_per_m2);
+  require("viscosity_100C_mm2_per_s", fluid.viscosity_100C_m2_per_s, type.fluid.viscosity_100C_m2_per_s, mm2_per_m2);
 }
 
 /// Recordings that contradict each other.
@@ -262,6 +286,7 @@ CalibratedUnit unit_of_type(const model::Model& type, const std::string& type_fi
 CalibratedUnit calibrate_unit(const model::Model& type, const std::string& type_file, const recording::Campaign& unit,
                               const std::string& tool_version, const CalibrationProgress& progress) {
   static_cast<void>(known_of_type(model::of_direction(type, "b"), type_file));  // is it one
+  require_oil_of_type(unit.fluid, type, unit.file.string());
   const std::vector<recording::ReadOptions> options = unit_read_options(unit, type.whole());
   model::Provenance provenance{tool_version, model::creation_time(), {}};
   provenance.inputs.push_back({"campaign", unit.file.filename().string(), model::sha256_of_file(unit.file), 0});
@@ -287,7 +312,7 @@ CalibratedUnit calibrate_unit(const model::Model& type, const std::string& type_
                                  std::move(sha256), read.size(), read.resampled});
     const std::string direction = direction_of(entry, read, type);
     if (entry.protocol == recording::Protocol::operation) add_doubts(provenance.doubts, type, read, direction);
-    runs.push_back({&read, entry.protocol, direction});
+    runs.push_back({&read, entry.protocol, direction, meter_gain_deviation_of(unit)});
   }
   for (plausibility::Finding& finding : plausibility::channel_findings(strokes))
     provenance.doubts.push_back(std::move(finding.text));

@@ -12,9 +12,8 @@ namespace spoolflow::calibration {
 namespace {
 
 constexpr auto unknowns = static_cast<Eigen::Index>(unit_unknowns);
-constexpr std::array<double, unit_unknowns - variations> beside_deviations{
-    meter_gain_uncertainty, ageing_uncertainty, unloaded_friction_uncertainty_N, friction_tilt_uncertainty_N,
-    conductance_tilt_uncertainty};
+constexpr std::array<double, unit_unknowns - variations - 1> beside_meter_gain{
+    ageing_uncertainty, unloaded_friction_uncertainty_N, friction_tilt_uncertainty_N, conductance_tilt_uncertainty};
 
 UnitUnknowns unknowns_from(const Eigen::VectorXd& x) {
   UnitUnknowns out;
@@ -42,14 +41,15 @@ struct Prior {
   Eigen::VectorXd mean, deviation;
   Eigen::MatrixXd precision;
 
-  explicit Prior(const KnownDeviations& known)
+  Prior(const KnownDeviations& known, double meter_gain_deviation)
       : mean(Eigen::VectorXd::Zero(unknowns)),
         deviation(unknowns),
         precision(Eigen::MatrixXd::Zero(unknowns, unknowns)) {
     mean.head(deviating) = known.mean;
     deviation.head(deviating) = known.covariance.diagonal().cwiseSqrt();
-    for (Eigen::Index k = deviating; k < unknowns; ++k)
-      deviation(k) = beside_deviations[static_cast<std::size_t>(k - deviating)];
+    deviation(deviating) = meter_gain_deviation;
+    for (Eigen::Index k = deviating + 1; k < unknowns; ++k)
+      deviation(k) = beside_meter_gain[static_cast<std::size_t>(k - deviating - 1)];
     precision.topLeftCorner(deviating, deviating) = inverse_of_covariance(known.covariance);
     for (Eigen::Index k = deviating; k < unknowns; ++k) precision(k, k) = 1 / (deviation(k) * deviation(k));
   }
@@ -86,7 +86,7 @@ KnownDeviations spread_of(const Deviations& tolerances) {
 }
 
 UnitFit most_likely_unit(const UnitEvidence& evidence, const KnownDeviations& known) {
-  const Prior prior(known);
+  const Prior prior(known, evidence.meter_gain_deviation());
   Eigen::VectorXd x = prior.mean;
   Eigen::VectorXd rows = evidence.rows(unknowns_from(x));
   double here = loss_at(rows, prior, x);

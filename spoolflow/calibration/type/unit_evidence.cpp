@@ -37,6 +37,7 @@ double flow_row_uncertainty_m3_per_s(const model::Model& type) {
 
 UnitEvidence::UnitEvidence(const model::Model& type, std::vector<UnitRun> runs) : type_(type) {
   for (const UnitRun& run : runs) {
+    meter_gain_deviation_ = std::max(meter_gain_deviation_, run.meter_gain_deviation);
     prepare(run);
     add_closed_reading();
     add_resistance(run);

@@ -15,13 +15,6 @@
 
 namespace spoolflow::calibration {
 
-/// A recording of the unit.
-struct UnitRun {
-  const recording::Recording* recording;
-  recording::Protocol protocol;  ///< unpressurised_strokes or operation
-  std::string direction{};       ///< of a whole valve's unit "a", "b", or "both" where it goes through the centre
-};
-
 /// What is searched: the deviations, and what is of the recordings and of the type's maps and stays out of the unit's
 /// model. The type's ageing is one that serves its pre-sliding, not its break-away alone. What its maps are wrong by is
 /// no noise of rows: it is the same in all of them, and would pass for armature friction and the position's gain.
@@ -33,11 +26,20 @@ struct UnitUnknowns {
   double friction_tilt_N = 0;      ///< by what friction and loop exceed the maps open, and fall short of them closed
   double conductance_tilt = 0;     ///< by what the conductance exceeds the maps' open, and falls short of them closed
 };
-/// One standard deviation of each of the last five.
+/// One standard deviation of each of the last five; of the meter where its class is not given.
 inline constexpr double meter_gain_uncertainty = 0.005, ageing_uncertainty = 0.35,
                         unloaded_friction_uncertainty_N = 0.3, friction_tilt_uncertainty_N = 0.3,
                         conductance_tilt_uncertainty = 0.01;
 inline constexpr std::size_t unit_unknowns = variations + 5;
+
+/// A recording of the unit.
+struct UnitRun {
+  const recording::Recording* recording;
+  recording::Protocol protocol;  ///< unpressurised_strokes or operation
+  std::string direction{};       ///< of a whole valve's unit "a", "b", or "both" where it goes through the centre
+  double meter_gain_deviation = meter_gain_uncertainty;  ///< of its flow meter, one standard deviation of the reading
+};
+
 /// Below this share of the highest pressure difference it counts as none.
 inline constexpr double unloaded_share = 0.02;
 
@@ -80,6 +82,8 @@ class UnitEvidence {
   /// What each of them is of.
   [[nodiscard]] const std::vector<EvidenceOf>& kinds() const { return kinds_; }
   [[nodiscard]] bool any(EvidenceOf kind) const;
+  /// Of UnitUnknowns::meter_gain before it is searched: that of the worst meter.
+  [[nodiscard]] double meter_gain_deviation() const { return meter_gain_deviation_; }
 
  private:
   struct Sample {
@@ -105,6 +109,7 @@ class UnitEvidence {
                  Eigen::VectorXd& sums) const;
 
   const model::Model& type_;
+  double meter_gain_deviation_ = 0;
   std::vector<Run> runs_;
   std::vector<EvidenceOf> kinds_;
   std::vector<double> counts_, deviations_;  ///< of each row: samples, standard deviation

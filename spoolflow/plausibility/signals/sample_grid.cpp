@@ -117,6 +117,8 @@ std::string SampleGrid::resampled() const {
 }
 
 std::string SampleGrid::coarse_current() const {
+  constexpr double fewest_samples = 100;
+  if (samples_ < fewest_samples) return {};
   double largest_A = 0;
   for (const Channel channel : currents) largest_A = std::max(largest_A, of(channels_, channel).largest);
   for (const Channel channel : currents) {

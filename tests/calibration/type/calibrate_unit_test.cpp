@@ -54,8 +54,13 @@ class UnitFolder {
     std::ofstream out(file_.folder() / "type.json");
     model::write_model(out, type());
   }
-  [[nodiscard]] UnitCalibration calibrate() const {
-    const recording::Campaign campaign = unit();
+  [[nodiscard]] UnitCalibration calibrate(std::string_view also = {}) const {
+    const std::filesystem::path file = file_.folder() / "said.toml";
+    {
+      std::ifstream in(file_.path());
+      std::ofstream(file) << in.rdbuf() << also;
+    }
+    const recording::Campaign campaign = recording::read_unit_campaign(file, valve_of_type(type()));
     return calibrated_unit(type(), (file_.folder() / "type.json").string(), campaign, "test",
                            [](const std::string&, double) {});
   }
@@ -67,9 +72,6 @@ class UnitFolder {
   }
 
  private:
-  [[nodiscard]] recording::Campaign unit() const {
-    return recording::read_unit_campaign(file_.path(), valve_of_type(type()));
-  }
   recording::TemporaryFile file_;
 };
 
@@ -105,6 +107,28 @@ TEST(TypeModel, StaysAsWideAsItsUnitsDifferWhateverMachineIsDeclared) {
   apply({}, declared);  // a bench leaves nothing open but the units' spread
   EXPECT_DOUBLE_EQ(machine_of(declared).force_N, machine_of(type()).force_N);
   EXPECT_DOUBLE_EQ(machine_of(declared).flow_share, machine_of(type()).flow_share);
+}
+
+TEST(CalibrateUnit, LeavesOpenWhatItsFlowMeterIsWrongBy) {
+  const UnitFolder folder({});
+  const UnitCalibration usual = folder.calibrate();
+  const UnitCalibration worse = folder.calibrate("[instruments]\nflow_uncertainty_percent = 6\n");
+  const auto edge_width = [](const UnitCalibration& unit) { return unit.parameters[at(Variation::edge_width)]; };
+  EXPECT_GT(edge_width(worse).uncertainty, 1.3 * edge_width(usual).uncertainty);
+  EXPECT_GT(machine_of(worse.model).flow_share, 1.2 * machine_of(usual.model).flow_share);
+  EXPECT_LT(machine_of(worse.model).flow_share, machine_of(type()).flow_share);
+}
+
+TEST(CalibrateUnit, IsMeasuredInTheOilOfItsType) {
+  const UnitFolder folder({});
+  EXPECT_NO_THROW((void)folder.calibrate("[fluid]\nname = \"HLP46\"\nviscosity_40C_mm2_per_s = 46\n"));
+  try {
+    (void)folder.calibrate("[fluid]\nviscosity_40C_mm2_per_s = 32\n");
+    FAIL() << "another oil passed";
+  } catch (const CalibrationError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("said.toml: viscosity_40C_mm2_per_s = 32 in [fluid], and the type's campaign "
+                                        "has 46; the tables are of the type's oil: leave [fluid] out"));
+  }
 }
 
 TEST(CalibrateUnit, FindsAUnitsFlowWithinAHundredthWhereItsTypeErrsByMore) {
