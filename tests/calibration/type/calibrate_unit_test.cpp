@@ -337,26 +337,5 @@ TEST(TypeModel, SlidingFrictionOfAnyUnitIsAsUncertainAsItsContactsAgeToo) {
               1e-6);
 }
 
-TEST(TypeModel, TolerancesAreReadInTheirUnitsAndUnknownOnesRefusedByLine) {
-  EXPECT_DOUBLE_EQ(tolerances_from({"", {{"edge_position_um", 12}}})[at(Variation::edge_position)], 12e-6);
-  try {
-    (void)tolerances_from({"campaign.toml, line 9", {{"edge_position", 12}}});
-    FAIL() << "a length without its unit passed";
-  } catch (const CalibrationError& error) {
-    EXPECT_THAT(error.what(),
-                HasSubstr("campaign.toml, line 9: [tolerances] has no key edge_position; allowed: turns"));
-  }
-  EXPECT_THROW((void)tolerances_from({"", {{"spring_rate", 2}}}), CalibrationError);  // percent for a share
-  EXPECT_THROW((void)tolerances_from({"", {{"turns", 0.3}}}), CalibrationError);
-  try {
-    (void)tolerances_from({"campaign.toml, line 9", {{"edge_position_um", 0.008}}});
-    FAIL() << "millimetres for micrometres passed";
-  } catch (const CalibrationError& error) {
-    EXPECT_STREQ(error.what(),
-                 "campaign.toml, line 9: edge_position_um = 0.008 is not between 0.04 and 50; give one standard "
-                 "deviation between units of a type, in um, where it stands in mm times 1000");
-  }
-}
-
 }  // namespace
 }  // namespace spoolflow::calibration
