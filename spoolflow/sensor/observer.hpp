@@ -22,7 +22,12 @@ SPOOLFLOW_INLINE constexpr void follow_layer(const ObserverParameters<T>& valve,
   state.oil_layer = layer.cell;
   state.oil_status =
       when(!layer.inside, Status::outside_temperature) | when(!is_zero(state.oil.fault_s), Status::temperature_fault);
-  state.open = !layer.inside || !is_bench(valve.environment);
+}
+
+/// Whether the band has to ask what machine and oil leave open.
+template <class T>
+SPOOLFLOW_INLINE constexpr void follow_open(const ObserverParameters<T>& valve, ObserverState<T>& state) {
+  state.open = has(state.oil_status, Status::outside_temperature) || !is_bench(valve.environment);
   if (!state.open) state.force_errors.environment_N = T(0);
 }
 
@@ -41,6 +46,7 @@ constexpr void begin(const ObserverParameters<T>& valve, ObserverState<T>& state
   sensor::begin(state.oil, sample.oil_temperature_K, valve.edge.temperature_K.at(1));
   state.held_currents = 0;
   state.unmoved_s = T(0);
+  state.open = true;
   state.drift_m = drift_m(valve.position_sensor, state.oil.temperature_K);
   const T position_m = sample.position_m - state.drift_m;
   sensor::begin(state.position, position_m);
@@ -261,6 +267,7 @@ SPOOLFLOW_INLINE constexpr void observe(const ObserverParameters<T>& valve, Obse
                                         const Dither<T>& dither, const Schedule<T>& schedule, T opposing_N,
                                         Status faults = {}) {
   if (schedule.oil_temperature.now) follow_layer(valve, state);
+  if (schedule.friction_memory.now) follow_open(valve, state);
   const auto stopped = [&] { return lies_below(valve.stopped_above_m, position.position_m); };
   if (unlikely(is_doubted(state.position) || state.actuator.coil_resistance.unanswered || stopped())) {
     answer_in_doubt(state, valve, sample,

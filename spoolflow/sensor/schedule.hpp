@@ -12,7 +12,7 @@ namespace spoolflow::sensor {
 ///
 /// | part                           | due with                                               | since it last ran |
 /// |--------------------------------|--------------------------------------------------------|-------------------|
-/// | friction_memory                | the sample that closes a block                         | a block           |
+/// | friction_memory, follow_open   | the sample that closes a block                         | a block           |
 /// | coil_diagnosis                 | the first after four blocks' time that closes none     | four blocks       |
 /// | force_uncertainty, slip_excess | odd samples that close none, and a change of sides     | not needed        |
 /// | process_noise, band            | even samples that close none                           | not needed        |
