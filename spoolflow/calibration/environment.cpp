@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "spoolflow/calibration/numerics/covariance.hpp"
+#include "spoolflow/model/oil.hpp"
 
 namespace spoolflow::calibration {
 namespace {

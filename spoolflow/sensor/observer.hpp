@@ -20,15 +20,10 @@ template <class T>
 SPOOLFLOW_INLINE constexpr void follow_layer(const ObserverParameters<T>& valve, ObserverState<T>& state) {
   const OilLayer<T> layer = valve.edge.layer_at(state.oil.temperature_K);
   state.oil_layer = layer.cell;
+  if (unlikely(has(state.oil_status, Status::outside_temperature)) && layer.inside)
+    state.force_errors.environment_N = T(0);
   state.oil_status =
       when(!layer.inside, Status::outside_temperature) | when(!is_zero(state.oil.fault_s), Status::temperature_fault);
-}
-
-/// Whether the band has to ask what machine and oil leave open.
-template <class T>
-SPOOLFLOW_INLINE constexpr void follow_open(const ObserverParameters<T>& valve, ObserverState<T>& state) {
-  state.open = has(state.oil_status, Status::outside_temperature) || !is_bench(valve.environment);
-  if (!state.open) state.force_errors.environment_N = T(0);
 }
 
 /// The oil temperature, where it is due, and what it does to the position's zero.
@@ -46,7 +41,7 @@ constexpr void begin(const ObserverParameters<T>& valve, ObserverState<T>& state
   sensor::begin(state.oil, sample.oil_temperature_K, valve.edge.temperature_K.at(1));
   state.held_currents = 0;
   state.unmoved_s = T(0);
-  state.open = true;
+  state.oil_layer = locate<edge_temperatures>(valve.edge.temperature_K, state.oil.temperature_K);
   state.drift_m = drift_m(valve.position_sensor, state.oil.temperature_K);
   const T position_m = sample.position_m - state.drift_m;
   sensor::begin(state.position, position_m);
@@ -121,10 +116,10 @@ SPOOLFLOW_INLINE constexpr void mark_answer(const ObserverParameters<T>& valve, 
 template <class T>
 SPOOLFLOW_INLINE constexpr void follow_half_widths(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                                    const ForceBalance<T>& balance, const PositionPoint<T>& position,
-                                                   T current_A) {
+                                                   T current_A, bool outside_temperature) {
   PressureState<T>& pressure = state.pressure;
   follow_agreement(pressure);
-  if (unlikely(state.open)) {
+  if (!is_bench(valve.environment) || outside_temperature) {
     T& open_N = state.force_errors.environment_N;
     open_N = continued_oil_N(valve.edge, state.oil_layer.share, balance.edge, pressure.pressure_difference_Pa);
     if (!is_bench(valve.environment))
@@ -253,7 +248,8 @@ SPOOLFLOW_INLINE constexpr void observe_forces(const ObserverParameters<T>& valv
   follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, schedule.coil_diagnosis);
 
   // Flow rate and its band.
-  if (schedule.band) follow_half_widths(valve, state, balance, position, sample.current_A);
+  if (schedule.band)
+    follow_half_widths(valve, state, balance, position, sample.current_A, has(status, Status::outside_temperature));
   answer(valve, state.pressure, balance, state.last);
   mark_answer(valve, state, sample, balance, status);
   state.last.status = status;
@@ -267,7 +263,6 @@ SPOOLFLOW_INLINE constexpr void observe(const ObserverParameters<T>& valve, Obse
                                         const Dither<T>& dither, const Schedule<T>& schedule, T opposing_N,
                                         Status faults = {}) {
   if (schedule.oil_temperature.now) follow_layer(valve, state);
-  if (schedule.friction_memory.now) follow_open(valve, state);
   const auto stopped = [&] { return lies_below(valve.stopped_above_m, position.position_m); };
   if (unlikely(is_doubted(state.position) || state.actuator.coil_resistance.unanswered || stopped())) {
     answer_in_doubt(state, valve, sample,

@@ -103,7 +103,6 @@ struct ObserverState {
   Cell<T> oil_layer{};  ///< of its temperature in the edge's tables
   T drift_m{};          ///< of the position's zero at that temperature
   Status oil_status{};  ///< what must be said of it with each answer
-  bool open{};          ///< machine or oil leave open what the bench knew
   ForceErrors<T> force_errors;
   T unmoved_s{};        ///< for how long the forces have contradicted a closed position (closed_evidence.hpp)
   int held_currents{};  ///< samples in a row whose current was implausible and replaced

@@ -12,7 +12,7 @@ namespace spoolflow::sensor {
 ///
 /// | part                           | due with                                               | since it last ran |
 /// |--------------------------------|--------------------------------------------------------|-------------------|
-/// | friction_memory, follow_open   | the sample that closes a block                         | a block           |
+/// | friction_memory                | the sample that closes a block                         | a block           |
 /// | coil_diagnosis                 | the first after four blocks' time that closes none     | four blocks       |
 /// | force_uncertainty, slip_excess | odd samples that close none, and a change of sides     | not needed        |
 /// | process_noise, band            | even samples that close none                           | not needed        |
@@ -44,7 +44,7 @@ SPOOLFLOW_INLINE constexpr Schedule<T> schedule_of(const PositionBlock<T>& block
   out.force_uncertainty = out.slip_excess = odd;
   out.process_noise = out.band = even;
   out.friction_ratio = {even && block.follows, block.length_s, pair};
-  out.oil_temperature = {block.lone || (odd && block.follows), block.length_s, pair};
+  out.oil_temperature = {odd && block.follows, block.length_s, pair};
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spoolflow/model/oil.hpp"
 #include "spoolflow/numerics/crossing.hpp"
 #include "spoolflow/units/conversion.hpp"
 

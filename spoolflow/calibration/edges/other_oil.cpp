@@ -7,6 +7,8 @@
 
 #include <Eigen/QR>
 
+#include "spoolflow/model/oil.hpp"
+
 namespace spoolflow::calibration {
 namespace {
 

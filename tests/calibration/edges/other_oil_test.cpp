@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "spoolflow/model/oil.hpp"
 #include "tests/sensor/closed_form_valve.hpp"
 
 namespace spoolflow::calibration {
