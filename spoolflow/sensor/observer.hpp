@@ -41,7 +41,6 @@ constexpr void begin(const ObserverParameters<T>& valve, ObserverState<T>& state
   sensor::begin(state.oil, sample.oil_temperature_K, valve.edge.temperature_K.at(1));
   state.held_currents = 0;
   state.unmoved_s = T(0);
-  state.oil_layer = locate<edge_temperatures>(valve.edge.temperature_K, state.oil.temperature_K);
   state.drift_m = drift_m(valve.position_sensor, state.oil.temperature_K);
   const T position_m = sample.position_m - state.drift_m;
   sensor::begin(state.position, position_m);
