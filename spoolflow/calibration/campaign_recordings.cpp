@@ -143,11 +143,14 @@ CampaignRecordings ReadCampaign::of(const std::string& direction) const {
     return equivalent != nullptr && (recorded.empty() || has_inferred_actuator(direction)) ? equivalent->*inferred
                                                                                            : *recorded.at(0);
   };
+  Recordings operation = of(Protocol::operation, direction);
+  // Strokes at held pressure differences are operation, too: slow, by the valve's own solenoid.
+  if (operation.empty() && directions_.size() < 2) operation = of(Protocol::metering, direction);
   return {only(Protocol::spring, &EquivalentBenches::spring),
           only(Protocol::solenoid_force_map, &EquivalentBenches::solenoid_force_map),
           of(Protocol::solenoid_dynamic, direction),
           axial_force_maps(direction),
-          of(Protocol::operation, direction),
+          operation,
           equivalent};
 }
 

@@ -1,5 +1,6 @@
 #include "spoolflow/calibration/campaign_recordings.hpp"
 
+#include <algorithm>
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -43,6 +44,28 @@ TEST(CampaignRecordings, GiveEachDirectionItsEdgesAndTheFlowThatTheCylinderPasse
   EXPECT_DOUBLE_EQ(b.outlet_flow_ratio, 0.5);  // what B takes leaves A behind half the area
   EXPECT_DOUBLE_EQ(a.outlet_flow_ratio, 2);
   EXPECT_FALSE(a.edges_are_unknown());
+}
+
+TEST(CampaignRecordings, StrokesAtHeldPressureDifferencesAreOperationWhereNoRunIs) {
+  const auto operation_of = [](const std::string& run) {
+    std::string text = "[valve]\nname = \"W\"\nrated_flow_L_min = 60\nstroke_mm = 2.4\n";
+    for (const char* protocol : {"spring", "solenoid_force_map", "axial_force_map", "metering"})
+      text += entry(protocol, "");
+    const recording::TemporaryFile file("campaign.toml", text + run);
+    std::ofstream(file.folder() / "all.csv")
+        << "time_s,position_mm,axial_force_N,current_A,voltage_V,force_N,pressure_difference_bar,flow_L_min,flow_"
+           "reference_L_min\n"
+           "0,0,9,1,3,20,10,0,0\n0.01,0.1,9.1,1,3,20,10,0,0\n0.02,0.2,9.2,1,3,20,10,0,0\n";
+    const recording::Campaign campaign = recording::read_campaign(file.path());
+    ReadCampaign read(campaign);
+    std::vector<const recording::Recording*> in_order;
+    for (std::size_t k = 0; k < campaign.recordings.size(); ++k) in_order.push_back(&read.read_next());
+    const Recordings operation = read.of("b").operation;
+    EXPECT_EQ(operation.size(), 1U);
+    return std::find(in_order.begin(), in_order.end(), operation.front()) - in_order.begin();
+  };
+  EXPECT_EQ(operation_of(""), 3);
+  EXPECT_EQ(operation_of(entry("operation", "")), 4);
 }
 
 /// Writes a campaign of all bench tests but those of `without`, each in a file of the given header.

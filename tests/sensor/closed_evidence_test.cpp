@@ -74,7 +74,7 @@ TEST(ClosedEvidence, TakesASpoolThatSticksTwiceAsHardAsCalibratedForWhatItIs) {
   const double friction_N = ironless.ageing_ratio * ironless.spool_friction_N(0.275 * ironless.highest_Pa, 313);
   const double current_A = (ironless.spring_N(0) + 2 * friction_N + 0.6) / ironless.force_per_current_N_per_A(0);
   for (std::size_t sample = 0; sample < 5000; ++sample) {
-    const Estimate<double>& answer = step(valve, state, {tick_s, current_A, 10 * current_A, dead_m(sample), 313.0});
+    const Estimate<double> answer = step(valve, state, {tick_s, current_A, 10 * current_A, dead_m(sample), 313.0});
     ASSERT_FALSE(has(answer.status, Status::position_fault)) << sample;
   }
 }
