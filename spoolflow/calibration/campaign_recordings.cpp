@@ -151,7 +151,8 @@ CampaignRecordings ReadCampaign::of(const std::string& direction) const {
           of(Protocol::solenoid_dynamic, direction),
           axial_force_maps(direction),
           operation,
-          equivalent};
+          equivalent,
+          fluid_of(campaign_)};
 }
 
 }  // namespace spoolflow::calibration

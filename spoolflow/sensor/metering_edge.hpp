@@ -50,7 +50,7 @@ struct OilLayer {
 /// A layer that was kept: a bit that falls in its memory leads to no place outside of the tables.
 template <class T>
 SPOOLFLOW_INLINE constexpr Cell<T> in_tables(const Cell<T>& layer) {
-  static_assert(edge_temperatures == 3, "one bit tells the two cells apart");
+  static_assert(edge_temperatures == 3, "one bit distinguishes the two cells");
   return {layer.index & (edge_temperatures - 2), layer.share};
 }
 

@@ -46,9 +46,10 @@ TEST(CampaignRecordings, GiveEachDirectionItsEdgesAndTheFlowThatTheCylinderPasse
   EXPECT_FALSE(a.edges_are_unknown());
 }
 
-TEST(CampaignRecordings, StrokesAtHeldPressureDifferencesAreOperationWhereNoRunIs) {
+TEST(CampaignRecordings, GiveTheOilAndStrokesAtHeldPressureDifferencesAsOperationWhereNoRunIs) {
   const auto operation_of = [](const std::string& run) {
-    std::string text = "[valve]\nname = \"W\"\nrated_flow_L_min = 60\nstroke_mm = 2.4\n";
+    std::string text =
+        "[valve]\nname = \"W\"\nrated_flow_L_min = 60\nstroke_mm = 2.4\n[fluid]\nviscosity_40C_mm2_per_s = 32\n";
     for (const char* protocol : {"spring", "solenoid_force_map", "axial_force_map", "metering"})
       text += entry(protocol, "");
     const recording::TemporaryFile file("campaign.toml", text + run);
@@ -60,6 +61,7 @@ TEST(CampaignRecordings, StrokesAtHeldPressureDifferencesAreOperationWhereNoRunI
     ReadCampaign read(campaign);
     std::vector<const recording::Recording*> in_order;
     for (std::size_t k = 0; k < campaign.recordings.size(); ++k) in_order.push_back(&read.read_next());
+    EXPECT_EQ(read.of("b").fluid.viscosity_40C_m2_per_s, 32e-6);
     const Recordings operation = read.of("b").operation;
     EXPECT_EQ(operation.size(), 1U);
     return std::find(in_order.begin(), in_order.end(), operation.front()) - in_order.begin();
