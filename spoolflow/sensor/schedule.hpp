@@ -44,7 +44,7 @@ SPOOLFLOW_INLINE constexpr Schedule<T> schedule_of(const PositionBlock<T>& block
   out.force_uncertainty = out.slip_excess = odd;
   out.process_noise = out.band = even;
   out.friction_ratio = {even && block.follows, block.length_s, pair};
-  out.oil_temperature = {block.lone || (odd && block.follows), block.length_s, pair};
+  out.oil_temperature = {odd && block.follows, block.length_s, pair};
   return out;
 }
 

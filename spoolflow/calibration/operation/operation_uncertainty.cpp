@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "spoolflow/calibration/numerics/fitted_parameters.hpp"
 #include "spoolflow/calibration/operation/operation_score.hpp"
@@ -10,11 +11,45 @@
 
 namespace spoolflow::calibration {
 
-double force_error_ratio(const sensor::ObserverParameters<double>& parameters, const std::vector<OperatingRun>& runs) {
-  double sum = 0;
+namespace {
+
+/// Whether the pressure difference that the reference shows has changed since the spool last slid, which no force at
+/// rest shows.
+class MovedPressure {
+ public:
+  explicit MovedPressure(double least_conductance) : least_conductance_(least_conductance) {}
+  /// False before the first sliding of a recording.
+  bool since_sliding(const ReplayedSample& sample) {
+    if (sample.time_s < last_s_) slid_at_Pa_ = std::nan("");
+    last_s_ = sample.time_s;
+    if (sample.shown_conductance < least_conductance_) return false;
+    const double root = sample.reference_m3_per_s / sample.shown_conductance, shown_Pa = root * root;
+    if (sensor::slides(sample.state.position.motion)) slid_at_Pa_ = shown_Pa;
+    return std::abs(shown_Pa - slid_at_Pa_) > held_share * slid_at_Pa_;
+  }
+
+ private:
+  static constexpr double held_share = 0.1;  ///< meter and edge leave no less open of a held one
+  double least_conductance_;
+  double last_s_ = std::numeric_limits<double>::infinity();
+  double slid_at_Pa_ = std::nan("");
+};
+
+/// What the samples at rest show, the edge open.
+struct AtRest {
+  double sum_of_squares = 0;  ///< of the flow's error over what one standard deviation of the forces makes of it
   std::size_t samples = 0;
+  std::size_t moved = 0;  ///< of these, where the pressure difference has moved since the spool slid
+};
+
+AtRest at_rest(const sensor::ObserverParameters<double>& parameters, const std::vector<OperatingRun>& runs) {
+  constexpr double least_opening_share = 0.05;
+  MovedPressure moved(least_opening_share * sensor::most_flow(parameters) /
+                      std::sqrt(parameters.highest_pressure_difference_Pa()));
+  AtRest out;
   replay(parameters, runs, [&](const ReplayedSample& sample) {
-    const auto& [valve, state, time_s, position_m, reference_m3_per_s, shown] = sample;
+    const auto& [valve, state, time_s, position_m, reference_m3_per_s, shown, shown_conductance] = sample;
+    const bool has_moved = moved.since_sliding(sample);
     if (state.position.motion != sensor::Motion::rest || sensor::has(state.last.status, sensor::Status::closed)) return;
     const double pressure_Pa = std::max(1e5, state.pressure.pressure_difference_Pa);
     const sensor::EdgePoint<double> edge = valve.edge.at(state.oil.temperature_K, pressure_Pa, position_m);
@@ -23,11 +58,38 @@ double force_error_ratio(const sensor::ObserverParameters<double>& parameters, c
         flow_per_pressure * sensor::pressure_deviation_Pa(edge, state.force_errors.noise_N);
     const double error =
         (reference_m3_per_s - shown.flow) / std::hypot(deviation_m3_per_s, 2 * parameters.band.flow_residual_m3_per_s);
-    sum += error * error;
-    ++samples;
+    out.sum_of_squares += error * error;
+    ++out.samples;
+    if (has_moved) ++out.moved;
   });
-  if (samples == 0) return assumed_force_error_ratio;
-  return std::max(least_force_error_ratio, std::sqrt(sum / static_cast<double>(samples)));
+  return out;
+}
+
+/// The smallest ratio, up to `most`, whose band holds `needed_coverage` of the reference.
+double covering_ratio(sensor::ObserverParameters<double> parameters, const std::vector<OperatingRun>& runs,
+                      double most) {
+  double least = least_force_error_ratio;
+  constexpr double resolution = 1.05;
+  while (most > resolution * least) {
+    const double middle = std::sqrt(least * most);
+    scale_band(parameters, middle);
+    const OperationOutcome outcome =
+        together(replay_stretches(parameters, runs, std::numeric_limits<double>::infinity()));
+    const bool holds =
+        static_cast<double>(outcome.inside) >= needed_coverage * static_cast<double>(outcome.error.samples);
+    (holds ? most : least) = middle;
+  }
+  return most;
+}
+
+}  // namespace
+
+double force_error_ratio(const sensor::ObserverParameters<double>& parameters, const std::vector<OperatingRun>& runs) {
+  const AtRest found = at_rest(parameters, runs);
+  if (found.samples == 0) return assumed_force_error_ratio;
+  const auto samples = static_cast<double>(found.samples);
+  const double ratio = std::max(least_force_error_ratio, std::sqrt(found.sum_of_squares / samples));
+  return static_cast<double>(found.moved) > restless_share * samples ? covering_ratio(parameters, runs, ratio) : ratio;
 }
 
 void scale_band(sensor::ObserverParameters<double>& parameters, double force_error_ratio) {

@@ -27,9 +27,16 @@ inline constexpr double least_dithered_force_error_ratio = 1;
 /// spool show errors of hysteresis and friction that hide each other in such runs.
 inline constexpr double least_inferred_force_error_ratio = 0.7;
 
+/// A supply is restless where the pressure difference has moved since the spool last slid in more than this share of
+/// the samples at rest: ...
+inline constexpr double restless_share = 0.1;
+/// ... its errors are not those of the forces, and the band itself shows how wide it must be, to hold this share of the
+/// reference.
+inline constexpr double needed_coverage = 0.97;
+
 /// RMS error of the flow at rest over what one standard deviation of the forces makes of it, the meter's lag and noise
-/// taken out. At rest nothing averages the forces' errors. The assumed ratio where the spool never rests open;
-/// never less than the least.
+/// taken out. At rest nothing averages the forces' errors. On a restless supply less, where the band holds the
+/// reference with less. The assumed ratio where the spool never rests open; never less than the least.
 [[nodiscard]] double force_error_ratio(const sensor::ObserverParameters<double>& parameters,
                                        const std::vector<OperatingRun>& runs);
 

@@ -42,6 +42,7 @@ struct ReplayedSample {
   double position_m;
   double reference_m3_per_s;  ///< what the meter shows of this sample, its dead time taken out
   Shown shown;                ///< what the meter's lag would make of the answers
+  double shown_conductance;   ///< the same of the edge's [m3/s/Pa(1/2)]
 };
 
 /// What the meter's lag makes of one answer after the other.
@@ -52,17 +53,23 @@ class LaggedAnswer {
     const bool first = std::isnan(shown_.flow);
     const double share = first ? 1 : share_of_(time_s - last_s_);
     if (first) shown_ = {0, 0, 0};
+    if (answer.pressure_difference_Pa > 0) {
+      const double conductance = answer.flow_m3_per_s / std::sqrt(answer.pressure_difference_Pa);
+      conductance_ += share * (conductance - conductance_);
+    }
     last_s_ = time_s;
     shown_.flow += share * (answer.flow_m3_per_s - shown_.flow);
     shown_.lower += share * (answer.flow_lower_m3_per_s - shown_.lower);
     shown_.upper += share * (answer.flow_upper_m3_per_s - shown_.upper);
     return shown_;
   }
+  [[nodiscard]] double conductance() const { return conductance_; }
 
  private:
   numerics::LagShare share_of_;
   double last_s_ = 0;
   Shown shown_{std::nan(""), 0, 0};
+  double conductance_ = 0;
 };
 
 /// What the sensor reads of an operating recording.
@@ -96,7 +103,7 @@ void replay(const sensor::ObserverParameters<double>& parameters, const std::vec
       const double sign = both && is_other ? -1 : 1;
       each(ReplayedSample{is_other ? *run.other : parameters, both ? state.whole_valve.open : state.observer,
                           used.time_s[k], sign * used.position_m[k], sign * reference_m3_per_s[late],
-                          sign > 0 ? shown : Shown{-shown.flow, -shown.upper, -shown.lower}});
+                          sign > 0 ? shown : Shown{-shown.flow, -shown.upper, -shown.lower}, lagged.conductance()});
     });
   }
 }

@@ -207,7 +207,7 @@ constexpr void begin(PositionState<T>& state, T position_m) {
   state.acceleration_m_per_s2 = T(0);
   state.coil.change_A = T(0);
   state.fault_s = T(0);
-  state.velocity_due = false;
+  state.velocity_due = true;  // of no blocks: what follows a block follows the beginning, too
   state.lone = true;
   state.samples = state.blocks = 0;
   state.motion = Motion::rest;

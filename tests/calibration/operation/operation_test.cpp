@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -253,6 +254,21 @@ TEST(ForceErrorRatio, ScalesTheBandSoThatItHoldsTheErrorsOnWhichItWasFound) {
     // At rest the limits of friction count as well, which the ratio does not move: 1.30 and 1.52 times as wide.
     EXPECT_GT(judged(2 * found).at_rest.mean_width(), 1.25 * as_found.at_rest.mean_width()) << deviations;
   }
+}
+
+TEST(ForceErrorRatio, TakesASupplyThatMovesAtRestForNoErrorOfTheForces) {
+  const sensor::ClosedFormValve valve;
+  sensor::Course moving({.position_m = 0.5e-3});
+  for (const double pressure_Pa : {42e5, 50e5, 43e5, 52e5, 45e5, 53e5, 44e5, 50e5})
+    moving.slide(1.6e-3, 1).rest(0.3, 0.5, pressure_Pa).rest(0.5, 0.5).slide(0.6e-3, 1).rest(1, -0.5);
+  const recording::Recording run = recorded(valve, moving, 1);
+  sensor::ObserverParameters<double> parameters = sensor::closed_form_observer<double>(valve);
+  const double ratio = force_error_ratio(parameters, only(run));
+  EXPECT_LT(ratio, 1.5);  // of the error at rest it would be 4.7
+  scale_band(parameters, ratio);
+  const OperationOutcome outcome =
+      together(replay_stretches(parameters, only(run), std::numeric_limits<double>::infinity()));
+  EXPECT_GE(static_cast<double>(outcome.inside), needed_coverage * static_cast<double>(outcome.error.samples));
 }
 
 TEST(ForceErrorRatio, IsAssumedWhereTheSpoolNeverRestsOpen) {
