@@ -73,6 +73,7 @@ inline constexpr double least_reversal_share = 0.1;       ///< of changes that g
 inline constexpr double near_zero_share = 0.02;           ///< of the largest value: pump or coil is off
 inline constexpr double least_motion_correlation = 0.45;  ///< of changes of current and position, over ten seconds
 inline constexpr double widest_motion_peak_s = 0.3;       ///< of shifts at which they are nearly as large
+inline constexpr double narrowest_motion_peak_s = 0.045;  ///< a spool under way moves for longer; steps fit by chance
 inline constexpr double agreeing_share = 0.6;             ///< of such pieces, and
 inline constexpr double same_delay_s = 0.035;             ///< apart
 inline constexpr double earliest_motion_s = -0.055;  ///< of a position behind its current; sound runs have 0 to 0.09

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -55,7 +56,11 @@ std::optional<double> clear_shift_s(std::span<const double> current, std::span<c
     correlation[k] = power[k] < least_power ? 0 : correlation[k] / std::sqrt(current_power * power[k]);
   const auto best = std::ranges::max_element(correlation);
   const auto as_well = std::ranges::count_if(correlation, [&](double each) { return each > as_well_share * *best; });
-  if (*best < least_motion_correlation || static_cast<double>(as_well) * block_s > widest_motion_peak_s)
+  const auto falls = [&](double each) { return each <= as_well_share * *best; };
+  const auto width = std::find_if(best, correlation.end(), falls) -
+                     std::find_if(std::make_reverse_iterator(best), correlation.rend(), falls).base();
+  if (*best < least_motion_correlation || static_cast<double>(as_well) * block_s > widest_motion_peak_s ||
+      static_cast<double>(width) * block_s < narrowest_motion_peak_s)
     return std::nullopt;
   return static_cast<double>(best - correlation.begin() - static_cast<std::ptrdiff_t>(most_shift_blocks)) * block_s;
 }

@@ -17,12 +17,11 @@ class MotionDelay {
   void take(const std::array<std::vector<double>, recording::channel_count>& columns);
 
   /// By how much the position follows the current later than a spool does [s]; < 0: it comes before the current.
-  /// In pieces of ten seconds, the shift within 5 s at which their changes over 30 ms correlate best; the median of
-  /// the pieces in which they do so by `least_motion_correlation` and clearly at one shift, where three and most of
-  /// them agree: strokes that come again and again fit at many, as friction turns the current long before the spool.
-  /// Nothing where
-  /// that is what a spool and its position sensor take, where the run moves too slowly, or where its samples are more
-  /// than 10 ms apart.
+  /// In pieces of ten seconds, the shift within 5 s at which their changes over 30 ms correlate best; the median of the
+  /// pieces in which they do so by `least_motion_correlation`, as long as a spool moves and clearly at one shift, where
+  /// three and most of them agree: strokes that come again and again fit at many, as friction turns the current long
+  /// before the spool. Nothing where that is what a spool and its position sensor take, where the run moves too slowly,
+  /// or where its samples are more than 10 ms apart.
   [[nodiscard]] std::optional<double> late_s() const;
 
  private:

@@ -1,6 +1,7 @@
 /// What amplifiers and recorders do to a channel: clipped ends, and clocks that differ. Of sound recordings, and of
 /// signals that stand at an end by themselves, nothing is said.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <random>
@@ -137,6 +138,23 @@ TEST(MotionDelay, IsNoneOfTrianglesBehindFrictionHoweverAlikeTheyAre) {
     run.column(Channel::time).push_back(time_s);
     run.column(Channel::position).push_back(2e-3 * triangle(time_s - 0.3));
     run.column(Channel::current).push_back(1.5 * triangle(time_s));
+  }
+  EXPECT_EQ(delay_of(run), std::nullopt);
+}
+
+/// A supply steps every 3 s: the resting spool gives way by micrometres, and the position control answers.
+TEST(MotionDelay, IsNoneOfStepsOfARestingSpoolThatFitByChance) {
+  constexpr std::array<int, 5> way{1, -1, -1, 1, -1};
+  Recording run;
+  double position_m = 1e-3, current_A = 1;
+  for (std::size_t k = 0; k < 90'000; ++k) {
+    if (k % 3000 == 0) {
+      position_m += 2e-6 * way[k / 3000 % way.size()];
+      current_A += 0.05 * way[(k / 3000 + 1) % way.size()];
+    }
+    run.column(Channel::time).push_back(1e-3 * static_cast<double>(k));
+    run.column(Channel::position).push_back(position_m);
+    run.column(Channel::current).push_back(current_A);
   }
   EXPECT_EQ(delay_of(run), std::nullopt);
 }
