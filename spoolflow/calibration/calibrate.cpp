@@ -14,6 +14,7 @@
 #include "spoolflow/calibration/known_quantities.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/observer.hpp"
+#include "spoolflow/calibration/operation/operation_uncertainty.hpp"
 #include "spoolflow/calibration/unpressurised_strokes.hpp"
 #include "spoolflow/plausibility/campaign_findings.hpp"
 #include "spoolflow/plausibility/channel_findings.hpp"
@@ -174,8 +175,11 @@ std::vector<std::string> flow_bench_contradictions(const ReadCampaign& recording
   return out;
 }
 
-InOperation in_operation(const model::Valve& valve, const EquivalentBenches* flow_bench) {
-  return {valve.rated_flow_m3_per_s, flow_bench != nullptr,
+InOperation in_operation(const model::Valve& valve, const CampaignRecordings& recordings) {
+  const EquivalentBenches* flow_bench = recordings.flow_bench;
+  const double least_ratio =
+      recordings.strokes_as_operation ? least_stroke_force_error_ratio : least_inferred_force_error_ratio;
+  return {valve.rated_flow_m3_per_s, flow_bench != nullptr ? least_ratio : 0,
           flow_bench != nullptr && !flow_bench->axial_force_was_measured, valve.moving_mass_kg.has_value()};
 }
 
@@ -189,7 +193,7 @@ model::Model calibrate_valve(CampaignRecordings recordings, const model::Valve& 
   constexpr double bench_share = 0.3;
   std::vector<OperatingRun> runs;
   add_runs(runs, recordings.operation, RunOf::one, nullptr);
-  calibrate_in_operation(*fitted.observer, runs, in_operation(valve, recordings.flow_bench), [&](double share) {
+  calibrate_in_operation(*fitted.observer, runs, in_operation(valve, recordings), [&](double share) {
     progress("full sensor in operation", bench_share + (1 - bench_share) * share);
   });
   model::Model out;
@@ -215,7 +219,7 @@ model::Model calibrate_whole_valve(CampaignRecordings p_to_b, CampaignRecordings
   add_runs(runs, p_to_b.operation, RunOf::one, other);
   add_runs(runs, p_to_a.operation, RunOf::other, other);
   add_runs(runs, through_centre, RunOf::both, other);
-  calibrate_in_operation(*b.observer, runs, in_operation(valve, p_to_b.flow_bench), [&](double share) {
+  calibrate_in_operation(*b.observer, runs, in_operation(valve, p_to_b), [&](double share) {
     progress("full sensor in operation", 2 * bench_share + (1 - 2 * bench_share) * share);
   });
   take_over_operation(*b.observer, *a.observer);

@@ -145,14 +145,16 @@ CampaignRecordings ReadCampaign::of(const std::string& direction) const {
   };
   Recordings operation = of(Protocol::operation, direction);
   // Strokes at held pressure differences are operation, too: slow, by the valve's own solenoid.
-  if (operation.empty() && directions_.size() < 2) operation = of(Protocol::metering, direction);
+  const bool strokes = operation.empty() && directions_.size() < 2;
+  if (strokes) operation = of(Protocol::metering, direction);
   return {only(Protocol::spring, &EquivalentBenches::spring),
           only(Protocol::solenoid_force_map, &EquivalentBenches::solenoid_force_map),
           of(Protocol::solenoid_dynamic, direction),
           axial_force_maps(direction),
           operation,
           equivalent,
-          fluid_of(campaign_)};
+          fluid_of(campaign_),
+          strokes};
 }
 
 }  // namespace spoolflow::calibration

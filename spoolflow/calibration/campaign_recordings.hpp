@@ -26,6 +26,7 @@ struct CampaignRecordings {
   Recordings operation;                           ///< may be none
   const EquivalentBenches* flow_bench = nullptr;  ///< where strokes at held pressure differences are among them
   model::Fluid fluid{};
+  bool strokes_as_operation = false;  ///< there was no run: it is the flow bench's strokes
   [[nodiscard]] bool actuator_is_inferred() const {
     return flow_bench != nullptr && &solenoid_force_map == &flow_bench->solenoid_force_map;
   }

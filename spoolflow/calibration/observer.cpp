@@ -289,8 +289,8 @@ void calibrate_in_operation(model::Observer& observer, const std::vector<Operati
   const std::vector<OperatingRun> used = with_reference(runs);
   if (!used.empty()) {
     OperationFit fit = fit_operation(observer.parameters, used, valve, progress);
-    if (valve.on_flow_bench && fit.force_error_ratio < least_inferred_force_error_ratio) {
-      fit.force_error_ratio = least_inferred_force_error_ratio;
+    if (fit.force_error_ratio < valve.least_ratio) {
+      fit.force_error_ratio = valve.least_ratio;
       scale_band(observer.parameters, fit.force_error_ratio);
     }
     require_agreement(fit, used);

@@ -19,7 +19,7 @@ namespace spoolflow::calibration {
 /// The valve of the operating recordings.
 struct InOperation {
   double rated_flow_m3_per_s;
-  bool on_flow_bench = false;      ///< some of its forces are inferred
+  double least_ratio = 0;          ///< the force error ratio is taken for no less
   bool friction_is_known = false;  ///< that of sliding, from this valve as a whole
   bool mass_is_declared = false;   ///< the moving mass is not searched for
 };

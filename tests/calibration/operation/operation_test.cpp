@@ -91,7 +91,7 @@ TEST(Operation, MovesAFrictionThatTheValveAtWorkHasShownBeforeLess) {
   const recording::Recording run = recorded(valve, work(), 1.25);
   const auto found = [&](bool known) {
     sensor::ObserverParameters<double> parameters = sensor::closed_form_observer<double>(valve);
-    fit_operation(parameters, only(run), {valve.full_scale_m3_per_s(), known, known}, [](double) {});
+    fit_operation(parameters, only(run), {valve.full_scale_m3_per_s(), 0, known}, [](double) {});
     return parameters.friction.operation_ratio;
   };
   const double of_rigs = found(false), of_work = found(true);
