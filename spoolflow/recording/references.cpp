@@ -6,8 +6,10 @@
 #include <fstream>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "spoolflow/recording/channels/allowed_names.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
@@ -51,62 +53,96 @@ double number_within(const TomlTable& table, const char* key, const Range& range
                                    range.what, range.least, range.most));
 }
 
-/// Numbers of one line between commas, semicolons, tabs or blanks. Throws RecordingError with the line.
-std::vector<double> numbers_of(const std::string& line, const std::string& place) {
-  constexpr const char* between = ",; \t\r";
-  std::vector<double> out;
+/// The columns of a file of marks in their order, the last for a pump.
+constexpr std::array<std::string_view, 3> mark_columns{"begin_s", "end_s", "speed_rpm"};
+
+constexpr Range any_speed{1, 1e5, "the pump's speed in turns a minute"};
+
+/// Cells of a line between commas, semicolons, tabs or blanks, without quotes. Beside semicolons or tabs a comma is a
+/// decimal sign.
+std::vector<std::string> cells_of_marks(std::string line) {
+  constexpr const char* between = ",; \t\r\"";
+  if (line.find_first_of(";\t") != std::string::npos) std::ranges::replace(line, ',', '.');
+  std::vector<std::string> out;
   for (std::size_t at = line.find_first_not_of(between); at != std::string::npos;) {
     const std::size_t after = line.find_first_of(between, at);
-    if (read_number(line.substr(at, after - at), '.', out.emplace_back()) != Digits::number) {
-      throw RecordingError(fmt::format("{}: \"{}\" is no row of marks; a row is begin_s, end_s and of a pump speed_rpm",
-                                       place, line.substr(0, 60)));
-    }
+    out.push_back(line.substr(at, after - at));
     at = line.find_first_not_of(between, after);
   }
   return out;
 }
 
+/// How many of mark_columns the row of names has. Throws RecordingError with the line.
+std::size_t count_of_columns(const std::string& line, const std::string& place) {
+  const std::vector<std::string> names = cells_of_marks(line);
+  if (names.size() >= 2 && names.size() <= mark_columns.size() &&
+      std::equal(names.begin(), names.end(), mark_columns.begin()))
+    return names.size();
+  throw RecordingError(
+      fmt::format("{}: \"{}\" names no columns of marks; write begin_s,end_s above the rows, of a pump also "
+                  "begin_s,end_s,speed_rpm, and times in seconds of the recording",
+                  place, line.substr(0, 60)));
+}
+
+/// One row. Throws RecordingError with the line.
+TimeMark mark_of(const std::string& line, const std::string& place, std::size_t columns) {
+  std::vector<double> row;
+  for (const std::string& cell : cells_of_marks(line)) {
+    if (read_number(cell, '.', row.emplace_back()) != Digits::number) {
+      throw RecordingError(fmt::format("{}: \"{}\" is no row of marks; a row is begin_s, end_s and of a pump speed_rpm",
+                                       place, line.substr(0, 60)));
+    }
+  }
+  if (row.size() < 2 || row.size() > columns) {
+    throw RecordingError(
+        fmt::format("{}: has {} numbers for the columns {}; write one number a column, and a decimal comma with "
+                    "semicolons between the columns",
+                    place, row.size(), fmt::join(std::span(mark_columns).first(columns), ", ")));
+  }
+  if (row.size() == 2) return {row[0], row[1], std::numeric_limits<double>::quiet_NaN()};
+  if (!(row[2] >= any_speed.least && row[2] <= any_speed.most)) {
+    throw RecordingError(fmt::format("{}: speed_rpm = {} is out of range; give {}, {} to {}, or leave the row out",
+                                     place, row[2], any_speed.what, any_speed.least, any_speed.most));
+  }
+  return {row[0], row[1], row[2] * rad_per_s_per_rpm};
+}
+
 /// A file of rows `begin_s, end_s[, speed_rpm]` under a row that names them.
-std::vector<TimeMark> marks_of(const TomlTable& table) {
-  const std::filesystem::path file = table.file.parent_path() / table.text("marks");
+std::vector<TimeMark> marks_of(const TomlTable& table, const std::filesystem::path& file) {
   std::ifstream in(file);
-  if (!in) {
+  if (!in || std::filesystem::is_directory(file)) {
     throw RecordingError(fmt::format("{}: the file of marks {} cannot be read; correct marks = \"{}\" or put it there",
                                      table.place("marks"), file.string(), table.text("marks")));
   }
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   std::vector<TimeMark> out;
   std::string line;
-  std::size_t number = 0;
-  bool headed = false;
+  std::size_t number = 0, columns = 0;
   while (std::getline(in, line)) {
     const std::string place = fmt::format("{}, line {}", file.string(), ++number);
-    if (line.empty() || line.starts_with('#') || line == "\r") continue;
-    if (!headed) {
-      if (!line.starts_with("begin_s")) {
-        throw RecordingError(
-            fmt::format("{}: \"{}\" names no columns; write begin_s,end_s (and speed_rpm of a pump) "
-                        "above the rows",
-                        place, line.substr(0, 60)));
-      }
-      headed = true;
+    if (number == 1 && line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (line.empty() || line.starts_with('#')) continue;
+    if (columns == 0) {
+      columns = count_of_columns(line, place);
       continue;
     }
-    const std::vector<double> row = numbers_of(line, place);
-    if (row.size() < 2 || row.size() > 3) {
-      throw RecordingError(
-          fmt::format("{}: has {} numbers; a row is begin_s, end_s and of a pump speed_rpm", place, row.size()));
-    }
-    if (!(row[1] > row[0]) || (!out.empty() && row[0] < out.back().end_s)) {
+    const TimeMark mark = mark_of(line, place, columns);
+    if (!(mark.end_s > mark.begin_s) || (!out.empty() && mark.begin_s < out.back().end_s)) {
       throw RecordingError(
           fmt::format("{}: {} s to {} s is no interval after the one before it; order the rows by "
                       "time and let them not overlap",
-                      place, row[0], row[1]));
+                      place, mark.begin_s, mark.end_s));
     }
-    const double speed_rpm = row.size() == 3 ? row[2] : std::numeric_limits<double>::quiet_NaN();
-    out.push_back({row[0], row[1], speed_rpm * rad_per_s_per_rpm});
+    out.push_back(mark);
   }
   if (out.empty()) throw RecordingError(fmt::format("{}: has no rows of marks begin_s, end_s", file.string()));
   return out;
+}
+
+void read_marks(const TomlTable& table, Reference& out) {
+  out.marks_file = table.file.parent_path() / table.text("marks");
+  out.marks = marks_of(table, out.marks_file);
 }
 
 constexpr Range any_percent{0.05, 20, "the half width at 95 % in percent"};
@@ -117,7 +153,7 @@ void read_stroke(const TomlTable& table, Reference& out) {
                     "area_uncertainty_percent", "length_uncertainty_mm", "seal_leakage_L_min", "oil_column_cm3",
                     "highest_pressure_bar"});
   out.ends = static_cast<EndsSeen>(choice(table, "ends", end_names));
-  if (out.ends == EndsSeen::marks) out.marks = marks_of(table);
+  if (out.ends == EndsSeen::marks) read_marks(table, out);
   if (out.ends != EndsSeen::marks && table.optional_text("marks")) {
     throw RecordingError(fmt::format("{}: marks stands with ends = \"{}\"; leave marks out, or write ends = \"marks\"",
                                      table.place("marks"), end_names[static_cast<std::size_t>(out.ends)]));
@@ -141,12 +177,13 @@ void read_stroke(const TomlTable& table, Reference& out) {
 void read_pump(const TomlTable& table, Reference& out) {
   table.allow_only({"kind", "name", "recording", "direction", "marks", "displacement_cm3", "speed_rpm", "leakage_L_min",
                     "displacement_uncertainty_percent", "leakage_uncertainty_L_min"});
-  out.marks = marks_of(table);
+  read_marks(table, out);
   out.displacement_m3_per_rad =
       number_within(table, "displacement_cm3", {0.1, 1e4, "what the pump displaces a turn in cm3"}) * m3_per_cm3 /
       (2 * std::numbers::pi);
   const bool each = std::ranges::all_of(out.marks, [](const TimeMark& mark) { return mark.speed_rad_per_s > 0; });
-  const Range speeds{1, 1e5, "the pump's speed in turns a minute, or a third column speed_rpm among the marks"};
+  const Range speeds{any_speed.least, any_speed.most,
+                     "the pump's speed in turns a minute, or a third column speed_rpm among the marks"};
   out.speed_rad_per_s =
       number_within(table, "speed_rpm", speeds, each ? std::optional(1.0) : std::nullopt) * rad_per_s_per_rpm;
   out.leakage_m3_per_s = units::m3_per_s_from_L_per_min(

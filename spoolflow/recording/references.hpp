@@ -38,6 +38,7 @@ struct Reference {
   std::string direction;  ///< of flow through the valve that it is of, "b" (P to B) or "a"; empty: not said
   EndsSeen ends{};        ///< of a stroke; `marks` of a pump
   std::vector<TimeMark> marks;
+  std::filesystem::path marks_file;                         ///< that they stand in; empty: none
   double area_m2 = 0, length_m = 0;                         ///< of a stroke: what the port fills
   double displacement_m3_per_rad = 0, speed_rad_per_s = 0;  ///< of a pump
   double leakage_m3_per_s = 0;                              ///< of a pump: what it loses at work

@@ -52,6 +52,35 @@ TEST(References, APumpsSpeedStandsInTheFileOrBesideEachMark) {
   EXPECT_THAT(refused_reference(pump, "begin_s,end_s\n0,10\n"), HasSubstr("speed_rpm"));
 }
 
+TEST(References, MarksAreReadAsASpreadsheetOfTheUserWritesThem) {
+  const std::string figures = "area_cm2 = 40\nlength_mm = 650\n";
+  for (const std::string marks :
+       {"\xEF\xBB\xBF"
+        "begin_s,end_s\r\n1.5,7.25\r\n",
+        "\"begin_s\",\"end_s\"\n1.5,\"7.25\"\n", "begin_s;end_s\n1,5;7,25\n", "begin_s\tend_s\n1,5\t7,25\n"}) {
+    const std::vector<Reference> read = references_from(stroke + figures, marks);
+    ASSERT_EQ(read[0].marks.size(), 1U) << marks;
+    EXPECT_EQ(read[0].marks[0].begin_s, 1.5) << marks;
+    EXPECT_EQ(read[0].marks[0].end_s, 7.25) << marks;
+    EXPECT_TRUE(std::isnan(read[0].marks[0].speed_rad_per_s)) << marks;
+  }
+}
+
+TEST(References, NoNumberOfAMarkIsTakenForAnother) {
+  const std::string pump =
+      "[[reference]]\nkind = \"pump\"\nmarks = \"marks.csv\"\ndisplacement_cm3 = 20\nspeed_rpm = 1000\n";
+  EXPECT_THAT(
+      refused_reference(pump, "begin_s,speed_rpm,end_s\n1,1500,9\n"),
+      HasSubstr("marks.csv, line 1: \"begin_s,speed_rpm,end_s\" names no columns of marks; write begin_s,end_s"));
+  EXPECT_THAT(
+      refused_reference(pump, "begin_s,end_s\n1,7,855\n"),
+      HasSubstr("line 2: has 3 numbers for the columns begin_s, end_s; write one number a column, and a decimal "
+                "comma with semicolons"));
+  EXPECT_THAT(refused_reference(pump, "begin_s,end_s,speed_rpm\n1,9,1500\n10,19,-1500\n"),
+              HasSubstr("line 3: speed_rpm = -1500 is out of range; give the pump's speed in turns a minute, 1 to"));
+  EXPECT_THAT(refused_reference(pump, "begin_s,end_s,speed_rpm\n1,9,0\n"), HasSubstr("speed_rpm = 0"));
+}
+
 TEST(References, MetersAndTheClosedValveNeedNoMarks) {
   const std::vector<Reference> read = references_from(
       "[[reference]]\nkind = \"meter\"\nuncertainty_percent = 0.5\n[[reference]]\nkind = \"closed\"\nrecording = "
