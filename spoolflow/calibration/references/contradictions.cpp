@@ -41,9 +41,10 @@ std::string left_out(const MachineEvidence& evidence, const WearView& view, std:
   const Apart apart = apart_of(view, r);
   if (apart.all == 0) {
     throw CalibrationError(
-        fmt::format("{}: {} is refused: the sensor sees less than {:.0f} % of its oil pass in every interval; check "
-                    "that model and recording belong together, and that the strokes go in the model's direction",
-                    reference.place, reference.name, percent * least_seen_share));
+        fmt::format("{}: {} is refused: in every interval the sensor sees less than {:.0f} % of its oil pass, or more "
+                    "than {:.0f} %; check the units of what it states, that model and recording belong together, and "
+                    "that the strokes go in the model's direction",
+                    reference.place, reference.name, percent * least_seen_share, percent / least_seen_share));
   }
   const std::size_t count = apart.less.size() + apart.more.size();
   if (count == 0) return {};

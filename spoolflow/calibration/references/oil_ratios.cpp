@@ -81,7 +81,7 @@ std::vector<OilRatio> oil_ratios(const std::vector<PassedOil>& oil, const std::v
   std::vector<OilRatio> out;
   for (std::size_t k = 0; k < oil.size(); ++k) {
     const double volume_m3 = oil[k].volume_m3, seconds_per_m3 = (oil[k].end_s - oil[k].begin_s) / volume_m3;
-    const bool used = sensor_m3[k] > least_seen_share * volume_m3;
+    const bool used = sensor_m3[k] > least_seen_share * volume_m3 && volume_m3 > least_seen_share * sensor_m3[k];
     const double deviation =
         std::hypot(oil[k].uncertainty_m3 / volume_m3, sensor::ReferencePriors::volume_chance_share,
                    sensor::ReferencePriors::volume_chance_flow_share * rated_flow_m3_per_s * seconds_per_m3);

@@ -17,7 +17,8 @@ struct OilRatio {
   bool used;
 };
 
-/// Less of a reference's oil is of the other direction.
+/// Less of a reference's oil is of the other direction; where the reference has so little of the sensor's, it is of
+/// another unit or another valve.
 inline constexpr double least_seen_share = sensor::ReferencePriors::least_seen_share;
 
 [[nodiscard]] std::vector<OilRatio> oil_ratios(const std::vector<PassedOil>& oil, const std::vector<double>& sensor_m3,

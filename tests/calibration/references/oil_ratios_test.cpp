@@ -55,6 +55,10 @@ TEST(OilRatios, AReturnStrokeThatTheValvesOtherSideFedIsNotCounted) {
   EXPECT_FALSE(ratios[1].used);
 }
 
+TEST(OilRatios, AVolumeStatedInAnotherUnitIsNoneOfTheSensorsOil) {
+  for (const OilRatio& each : strokes(100, 0)) EXPECT_FALSE(each.used);
+}
+
 TEST(EvidenceOfChange, WantsMoreThanTheDeviationAndPaysForTheWidthItAllows) {
   EXPECT_LT(evidence_of_change(0, 1, 3), 0);
   EXPECT_LT(evidence_of_change(1.5, 1, 3), change_evidence);
