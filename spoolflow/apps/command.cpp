@@ -176,6 +176,17 @@ CLI::Validator between(double lowest, double highest) {
       range.get_description());
 }
 
+CLI::Validator whole_number_from(std::uint64_t lowest) {
+  return CLI::Validator(
+      [lowest](std::string& text) {
+        std::uint64_t value{};
+        const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+        if (digits && CLI::detail::lexical_cast(text, value) && value >= lowest) return std::string();
+        return fmt::format("Value {} is no whole number from {} on", text, lowest);
+      },
+      "");
+}
+
 void add_quiet(CLI::App& command, bool& quiet) {
   command.add_flag("-q,--quiet", quiet, "no progress (it is shown on a terminal only)");
 }

@@ -1,5 +1,6 @@
 #pragma once
 /// What a command's help says, and the options that commands share.
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ void shape_help_page(CLI::App& program);
 
 /// A number from `lowest` to `highest`; NaN is none.
 CLI::Validator between(double lowest, double highest);
+/// A whole number from `lowest` on, written in digits.
+CLI::Validator whole_number_from(std::uint64_t lowest);
 
 /// `-q,--quiet`: no progress.
 void add_quiet(CLI::App& command, bool& quiet);

@@ -15,6 +15,7 @@
 #include "spoolflow/apps/work/readable_model.hpp"
 #include "spoolflow/apps/work/recalibration.hpp"
 #include "spoolflow/monitor/adaptation.hpp"
+#include "spoolflow/recording/references.hpp"
 
 namespace spoolflow::apps {
 namespace {
@@ -40,17 +41,23 @@ model::Adaptation how_from(const RecalibrateArguments& arguments) {
   return {std::string(tool_version()), model::creation_time(), model::sha256_of_file(arguments.model), {}, {}};
 }
 
-calibration::RecalibratedValve moved_on(const RecalibrateArguments& arguments, const model::Model& model,
-                                        std::vector<std::filesystem::path>& inputs) {
+calibration::RecalibratedValve moved_on(const RecalibrateArguments& arguments, const model::Model& model) {
   MachineFiles from{{arguments.recordings.begin(), arguments.recordings.end()}, {}, arguments.references};
-  inputs.emplace_back(arguments.references);
-  inputs.insert(inputs.end(), from.recordings.begin(), from.recordings.end());
-  if (!arguments.channels.empty()) {
-    from.channels = recording::read_channel_map(arguments.channels);
-    inputs.emplace_back(arguments.channels);
-  }
+  if (!arguments.channels.empty()) from.channels = recording::read_channel_map(arguments.channels);
   Progress progress("recalibrating", arguments.quiet);
   return recalibrated(model, from, how_from(arguments));
+}
+
+/// All files that are read.
+std::vector<std::filesystem::path> inputs_of(const RecalibrateArguments& arguments) {
+  std::vector<std::filesystem::path> out{arguments.model};
+  out.insert(out.end(), arguments.recordings.begin(), arguments.recordings.end());
+  if (!arguments.channels.empty()) out.emplace_back(arguments.channels);
+  if (arguments.references.empty()) return out;
+  out.emplace_back(arguments.references);
+  for (const recording::Reference& each : recording::read_references(arguments.references))
+    if (!each.marks_file.empty()) out.push_back(each.marks_file);
+  return out;
 }
 
 void require_one_way(const RecalibrateArguments& arguments) {
@@ -72,11 +79,11 @@ void recalibrate_model(const RecalibrateArguments& arguments) {
   if (!arguments.references.empty()) roles.push_back({arguments.references, FileKind::settings, "--references "});
   refuse_other_kinds("recalibrate", roles);
   const model::Model model = model::read_model(arguments.model);
-  std::vector<std::filesystem::path> inputs{arguments.model};
+  calibration::require_movable(model);
+  OutputFile output(arguments.output, inputs_of(arguments));
   const calibration::RecalibratedValve valve =
       arguments.back_to ? calibration::gone_back(model, *arguments.back_to, how_from(arguments))
-                        : moved_on(arguments, model, inputs);
-  OutputFile output(arguments.output, inputs);
+                        : moved_on(arguments, model);
   output.stream() << readable_text(valve.model, arguments.output);
   commit_together({&output});
   for (const std::string& doubt : valve.doubts) say("spoolflow: doubt: {}\n", doubt);
@@ -101,7 +108,8 @@ void add_recalibrate_command(CLI::App& program) {
   command->add_option("--references", arguments->references, "what the machine knows of its oil: tables [[reference]]")
       ->type_name("REF.toml");
   command->add_option("--back-to", arguments->back_to, "earlier state of the model, 0 for as calibrated")
-      ->type_name("STATE");
+      ->type_name("STATE")
+      ->check(whole_number_from(0));
   command->add_option("-o,--output", arguments->output, "model file to write, - for standard output")
       ->type_name("MODEL2.json")
       ->required();

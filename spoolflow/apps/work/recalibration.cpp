@@ -1,5 +1,6 @@
 #include "spoolflow/apps/work/recalibration.hpp"
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -75,6 +76,27 @@ void refuse_used_again(const model::Model& model, const std::vector<std::filesys
   }
 }
 
+/// The marks of a reference are times of one recording, which its name tells.
+void refuse_ambiguous(const std::vector<recording::Reference>& references,
+                      const std::vector<std::filesystem::path>& files) {
+  for (const recording::Reference& each : references) {
+    const auto named = std::ranges::count_if(
+        files, [&](const std::filesystem::path& file) { return file.filename() == each.recording; });
+    if (named > 1) {
+      throw std::invalid_argument(
+          fmt::format("{}: {} is of the recording {}, and {} of the files given have that name; give them names of "
+                      "their own",
+                      each.place, each.name, each.recording, named));
+    }
+    if (each.recording.empty() && !each.marks.empty() && files.size() > 1) {
+      throw std::invalid_argument(fmt::format(
+          "{}: {} does not say of which of the {} recordings its marks are; write recording = \"{}\", and a table "
+          "[[reference]] for each",
+          each.place, each.name, files.size(), files.front().filename().string()));
+    }
+  }
+}
+
 /// What speaks against the recordings, so that they are no evidence of the valve.
 std::vector<std::string> doubts_about(const std::vector<recording::Recording>& recordings, const model::Model& model) {
   const std::vector<plausibility::KnownValve> known = plausibility::known_valve(model);
@@ -104,6 +126,7 @@ calibration::RecalibratedValve recalibrated(const model::Model& model, const Mac
                                             model::Adaptation how) {
   calibration::require_movable(model);  // before files are read that only another model needs
   const std::vector<recording::Reference> references = recording::read_references(from.references);
+  refuse_ambiguous(references, from.recordings);
   const std::vector<recording::Recording> recordings = recordings_of(from, model);
   refuse_used_again(model, from.recordings);
   const std::vector<std::string> doubts = doubts_about(recordings, model);

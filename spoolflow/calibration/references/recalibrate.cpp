@@ -29,6 +29,28 @@ void require_their_recordings(const std::vector<recording::Recording>& recording
   }
 }
 
+/// Oil that fills one cylinder fills no other, nor comes from another pump: a mark that overlaps another of its kind is
+/// the same oil told twice, and counts once.
+void require_counted_once(const std::vector<recording::Reference>& references) {
+  for (std::size_t r = 0; r < references.size(); ++r) {
+    for (std::size_t s = 0; s < r; ++s) {
+      const recording::Reference &one = references[s], &other = references[r];
+      const bool elsewhere = !one.recording.empty() && !other.recording.empty() && one.recording != other.recording;
+      if (one.kind != other.kind || elsewhere) continue;
+      for (const recording::TimeMark& mark : other.marks) {
+        const auto overlaps = [&](const recording::TimeMark& each) {
+          return each.begin_s < mark.end_s && mark.begin_s < each.end_s;
+        };
+        if (std::ranges::none_of(one.marks, overlaps)) continue;
+        throw CalibrationError(
+            fmt::format("{}: {} marks {} s to {} s, of which {} ({}) has marked a part; the oil of a time counts once: "
+                        "correct the marks, or leave one of the two out",
+                        other.place, other.name, mark.begin_s, mark.end_s, one.name, one.place));
+      }
+    }
+  }
+}
+
 /// Of a whole valve a stroke, or a pump's time, is of one direction; those of the other are none of it.
 void keep_own(const recording::Reference& reference, const recording::Recording& recording,
               const std::vector<bool>& other_opens, std::vector<PassedOil>& oil) {
@@ -257,6 +279,7 @@ RecalibratedValve recalibrate(const model::Model& model, const std::vector<recor
                               const std::vector<recording::Reference>& references, model::Adaptation how) {
   require_movable(model);
   require_their_recordings(recordings, references);
+  require_counted_once(references);
   for (const recording::Recording& recording : recordings) how.files.push_back(recording.file.filename().string());
   RecalibratedValve out{model, {}, {}};
   std::deque<Update> updates;  // of the directions that references are of

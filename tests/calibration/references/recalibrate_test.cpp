@@ -186,5 +186,19 @@ TEST(Recalibrate, NamesAReferenceWhoseRecordingIsNotGiven) {
       HasSubstr("meter is of the recording tuesday.csv, and given are strokes_at_30_bar.csv, strokes_at_45_bar"));
 }
 
+TEST(Recalibrate, RefusesAReferenceInAnotherUnit) {
+  const Reference pump = gear_pump(fresh_strokes()[0], 0.01);
+  EXPECT_THAT(refusal(fresh_strokes(), {pump}),
+              HasSubstr("gear pump is refused: in every interval the sensor sees less than 30 % of its oil pass, or "
+                        "more than 333 %; check the units of what it states"));
+}
+
+TEST(Recalibrate, OilThatTwoReferencesOfAKindTellCountsOnce) {
+  const Reference pump = gear_pump(fresh_strokes()[0], 1);
+  Reference again = pump;
+  again.name = "the same pump";
+  EXPECT_THAT(refusal(fresh_strokes(), {pump, again}), HasSubstr("of which gear pump (references.toml, line 9) has"));
+}
+
 }  // namespace
 }  // namespace spoolflow::calibration
