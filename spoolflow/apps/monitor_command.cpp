@@ -1,6 +1,8 @@
 /// `spoolflow monitor`: the condition of a valve from recordings of its operation.
 #include <algorithm>
+#include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <numeric>
 
@@ -54,9 +56,32 @@ void add(std::vector<std::string>& to, const std::vector<plausibility::Finding>&
   for (const plausibility::Finding& finding : findings) to.push_back(finding.text);
 }
 
-void say_doubts(const std::vector<std::string>& doubts) {
+/// "good" of a valve of which nothing was judged says only that no status speaks against it.
+void say_what_was_not_judged(const monitor::Monitor& watch) {
+  if (watch.judged_windows() > 0) return;
+  say("spoolflow: note: friction, edges, springs, turns and position zero were not judged: {:.3g} s of operation "
+      "hold no cycle of break-aways or of sliding below 3 mm/s, both ways, between 3 and 90 % of the stroke; give "
+      "longer or slower recordings\n",
+      watch.usage().driven_s);
+}
+
+void say_doubts(const std::vector<std::string>& doubts, const monitor::Monitor& watch) {
   for (const std::string& doubt : doubts)
     say("spoolflow: doubt: {}; what is raised may be the recording's and not the valve's\n", doubt);
+  say_what_was_not_judged(watch);
+}
+
+/// The same strokes twice are no more evidence than once. Pipes cannot be read twice, and are passed over.
+void refuse_given_twice(const std::vector<std::string>& recordings) {
+  std::map<std::string, std::string> given;  // sha256 to file
+  for (const std::string& file : recordings) {
+    if (!std::filesystem::is_regular_file(file)) continue;
+    const auto [first, is_new] = given.emplace(model::sha256_of_file(file), file);
+    if (is_new) continue;
+    throw model::ModelError(
+        fmt::format("{}: holds the same as {}, and counts once; leave it out, or name a recording of other strokes",
+                    file, first->second));
+  }
 }
 
 void refuse_unusable(const MonitorArguments& arguments) {
@@ -65,6 +90,7 @@ void refuse_unusable(const MonitorArguments& arguments) {
   std::vector<Input> roles{{arguments.model, FileKind::model}};
   for (const std::string& recording : arguments.recordings) roles.push_back({recording, FileKind::recording});
   refuse_other_kinds("monitor", roles);
+  refuse_given_twice(arguments.recordings);
 }
 
 }  // namespace
@@ -122,7 +148,7 @@ void monitor_recordings(const MonitorArguments& arguments) {
       samples.push_back(watch.usage().samples - std::accumulate(samples.begin(), samples.end(), std::uint64_t{0}));
     }
   }
-  say_doubts(doubts);
+  say_doubts(doubts, watch);
   if (corrected) write_corrected(corrected->stream(), arguments, {model, {}, {}, samples, {}}, watch);
   if (page) report::write_monitor_report(page->stream(), model, watch, runs, trend, units);
   if (json) report::write_monitor_json(json->stream(), model, watch, runs, band.figures());

@@ -46,6 +46,21 @@ TEST_F(Monitor, AHealthyValveIsGoodAndItsJudgementIsABaseline) {
   EXPECT_EQ(nlohmann::json::parse(later.output)["ne107"], "good");
 }
 
+TEST_F(Monitor, TheSameRecordingTwiceIsNoMoreEvidenceThanOnce) {
+  std::filesystem::copy_file(ramp, folder / "tuesday.h5");
+  refused(model + " " + ramp + " tuesday.h5", "tuesday.h5: holds the same as " + ramp + ", and counts once");
+}
+
+TEST_F(Monitor, AValveOfWhichNothingWasJudgedIsNotCalledGoodInSilence) {
+  std::string text = "time_s,current_A,voltage_V,position_mm,oil_temperature_C\n";
+  for (int k = 0; k < 200; ++k)
+    text += fmt::format("{:.3f},{:.5f},0,{:.5f},50\n", 1e-3 * k, 1e-4 * (k % 3), 1e-4 * (k % 2));
+  write("short.csv", text);
+  const Answer answer = run("monitor " + model + " short.csv --json out.json -q");
+  ASSERT_EQ(answer.status, 0) << answer.message;
+  EXPECT_THAT(answer.message, HasSubstr("position zero were not judged: 0 s of operation hold no cycle"));
+}
+
 TEST_F(Monitor, ARecordingThatCannotBeSoundIsNamedBesideWhatItRaises) {
   std::string text = "time_s,current_A,voltage_V,position_mm,oil_temperature_C\n";
   for (int k = 0; k < 30'000; ++k) {
