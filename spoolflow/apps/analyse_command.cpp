@@ -102,7 +102,7 @@ void analyse(const AnalyseArguments& arguments) {
   const report::ReaderUnits units(arguments.units);
   const model::Model model = model_of(arguments);
   analysis::Analysis results{scenario_of(arguments), {}, {}, {}, {}};
-  AnalyseOutputs outputs(arguments);
+  AnalyseOutputs outputs(arguments, results.scenario.study.valve);
   const bool whole = !results.scenario.study.skip;
   std::optional<analysis::RunSamples> run;
   if (!arguments.recording.empty()) run = run_of(model, arguments);
@@ -194,7 +194,7 @@ void add_analyse_command(CLI::App& program) {
                                    ->check(CLI::Range(2U, 65536U));
   command->add_option("--seed", arguments->seed, "of all random numbers, instead of the scenario's")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(whole_number_from(1));
   command->add_option("--jobs", arguments->jobs, "threads; all cores where not given; the result is the same")
       ->type_name("N")
       ->check(CLI::Range(1U, 1024U));

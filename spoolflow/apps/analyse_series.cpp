@@ -43,9 +43,9 @@ std::string bytes_of(const std::filesystem::path& file) {
 
 }  // namespace
 
-AnalyseOutputs::AnalyseOutputs(const AnalyseArguments& arguments) {
+AnalyseOutputs::AnalyseOutputs(const AnalyseArguments& arguments, const std::string& valve_file) {
   std::vector<std::filesystem::path> inputs{arguments.model};
-  for (const std::string& file : {arguments.scenario, arguments.recording, arguments.channels}) {
+  for (const std::string& file : {arguments.scenario, arguments.recording, arguments.channels, valve_file}) {
     if (!file.empty()) inputs.emplace_back(file);
   }
   if (!arguments.report.empty()) {
@@ -117,7 +117,7 @@ void analyse_series(const AnalyseArguments& arguments) {
   const report::ReaderUnits units(arguments.units);
   const model::Model type = model_of(arguments);
   const analysis::Scenario scenario = scenario_of(arguments);
-  AnalyseOutputs outputs(arguments);
+  AnalyseOutputs outputs(arguments, scenario.study.valve);
   const rig::ValveAndCampaign valve = analysis::study_valve(type, scenario);
   const analysis::SeriesStudy study = [&] {
     Progress progress("series", arguments.quiet);

@@ -49,7 +49,8 @@ void analyse_series(const AnalyseArguments& arguments);
 [[nodiscard]] model::Model model_of(const AnalyseArguments& arguments);
 /// The page and the figures that are asked for; both appear by commit(), or neither.
 struct AnalyseOutputs {
-  explicit AnalyseOutputs(const AnalyseArguments& arguments);
+  /// `valve_file`: what else the scenario reads; empty: nothing.
+  explicit AnalyseOutputs(const AnalyseArguments& arguments, const std::string& valve_file = {});
   void commit();
 
   std::optional<OutputFile> page, figures;

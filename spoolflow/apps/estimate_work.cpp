@@ -42,8 +42,10 @@ EstimateTask estimate_task(const EstimateArguments& arguments) {
                     {arguments.model},
                     recording::table_format(arguments.format),
                     arguments.quiet};
-  if (!arguments.environment.empty())
+  if (!arguments.environment.empty()) {
     calibration::apply(recording::read_environment(arguments.environment), task.model);
+    task.inputs.emplace_back(arguments.environment);
+  }
   task.known = plausibility::known_valve(task.model);
   task.estimator = estimation::best_estimator(task.model);
   if (arguments.estimator == "condensed") task.estimator = estimation::Estimator::condensed;

@@ -15,10 +15,12 @@
 namespace spoolflow::apps {
 void simulate(const SimulateArguments& arguments) {
   const rig::Scenario scenario = rig::read_scenario(arguments.scenario);
-  OutputFile recording(arguments.recording, {arguments.scenario, arguments.truth});
+  const std::vector<std::filesystem::path> inputs{arguments.scenario, scenario.valve_file};
+  OutputFile recording(arguments.recording, inputs);
   std::unique_ptr<OutputFile> truth;
   if (!arguments.truth.empty()) {
-    truth = std::make_unique<OutputFile>(arguments.truth, std::vector<std::filesystem::path>{arguments.scenario});
+    truth = std::make_unique<OutputFile>(arguments.truth,
+                                         std::vector<std::filesystem::path>{inputs[0], inputs[1], arguments.recording});
   }
   const rig::PlannedScenario planned = rig::plan(scenario);
   rig::Simulation simulation;
@@ -29,11 +31,8 @@ void simulate(const SimulateArguments& arguments) {
                       {.with_truth = truth != nullptr, .progress = [&](double share) { progress.update(share); }});
   }
   rig::write_recording(recording.stream(), simulation.recording, planned.run);
-  if (truth) {
-    rig::write_truth(truth->stream(), simulation.truth);
-    truth->commit();
-  }
-  recording.commit();
+  if (truth) rig::write_truth(truth->stream(), simulation.truth);
+  commit_together({truth.get(), &recording});
 }
 
 void add_simulate_command(CLI::App& program) {

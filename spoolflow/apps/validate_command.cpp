@@ -105,6 +105,7 @@ void validate(const ValidateArguments& arguments) {
   inputs.insert(inputs.end(), arguments.recordings.begin(), arguments.recordings.end());
   if (!arguments.channels.empty()) inputs.emplace_back(arguments.channels);
   if (!arguments.requirements.empty()) inputs.emplace_back(arguments.requirements);
+  if (!arguments.environment.empty()) inputs.emplace_back(arguments.environment);
   inputs.insert(inputs.end(), arguments.compare.begin(), arguments.compare.end());
   std::optional<OutputFile> page;
   std::optional<OutputFile> figures;

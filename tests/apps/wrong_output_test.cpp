@@ -141,5 +141,30 @@ TEST_F(WrongOutput, CtrlCAndTerminationInMidRun) {
   }
 }
 
+/// Files that a command reads through others are inputs as well.
+class ReadThroughOthers : public CommandLine {
+ protected:
+  void keeps(const std::string& file, const std::string& arguments) const {
+    const std::string before = content(file);
+    const Answer answer = run(arguments + " -q");
+    EXPECT_EQ(answer.status, 2) << arguments;
+    EXPECT_THAT(answer.message, ::testing::HasSubstr("this command also uses")) << arguments;
+    EXPECT_EQ(content(file), before) << arguments;
+  }
+};
+
+TEST_F(ReadThroughOthers, AreNotOverwritten) {
+  const std::string of_run = " " SPOOLFLOW_EXAMPLE_MODEL " " SPOOLFLOW_EXAMPLES "/valve_a/ramp_60bar.h5 ";
+  write("machine.toml", "[environment]\nfriction_percent = 5\n");
+  keeps("machine.toml", "estimate" + of_run + "--environment machine.toml -o machine.toml");
+  keeps("machine.toml", "validate" + of_run + "--environment machine.toml --json machine.toml");
+  write("worn.toml", "preset = \"size_6\"\n");
+  write("run.toml", "protocol = \"duty_cycle\"\nvalve = \"worn.toml\"\n[run]\nduration_s = 1\n");
+  keeps("worn.toml", "simulate run.toml -o worn.toml");
+  keeps("worn.toml", "simulate run.toml -o run.csv --truth worn.toml");
+  write("study.toml", "[study]\nvalve = \"worn.toml\"\n");
+  keeps("worn.toml", "analyse " SPOOLFLOW_EXAMPLE_MODEL " --scenario study.toml --json worn.toml");
+}
+
 }  // namespace
 }  // namespace spoolflow::apps

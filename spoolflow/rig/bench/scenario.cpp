@@ -13,9 +13,9 @@
 namespace spoolflow::rig {
 namespace {
 
-ValveUnderTest valve_of(const std::string& valve, const std::filesystem::path& scenario_file) {
-  const bool is_file = valve.ends_with(".toml");
-  return read_valve_and_campaign(is_file ? (scenario_file.parent_path() / valve).string() : valve).valve;
+/// The file that a scenario names as its valve; empty: a preset.
+std::filesystem::path valve_file(const std::string& valve, const std::filesystem::path& scenario_file) {
+  return valve.ends_with(".toml") ? scenario_file.parent_path() / valve : std::filesystem::path();
 }
 
 std::vector<std::string> protocol_names() {
@@ -120,7 +120,8 @@ Scenario read_scenario(const std::filesystem::path& file) {
   Scenario scenario{.valve = {}, .protocol = std::move(protocol)};
   std::string valve = "size_6";
   apply_known(source, Settings().add_text("valve", valve));
-  scenario.valve = valve_of(valve, file);
+  scenario.valve_file = valve_file(valve, file);
+  scenario.valve = read_valve_and_campaign(scenario.valve_file.empty() ? valve : scenario.valve_file.string()).valve;
 
   Settings settings;
   settings.add_text("valve", valve).add_choice("protocol", protocol_names(), [](std::size_t) {});

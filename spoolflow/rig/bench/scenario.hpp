@@ -20,7 +20,8 @@
 namespace spoolflow::rig {
 
 struct Scenario {
-  ValveUnderTest valve;  ///< before spread and wear
+  ValveUnderTest valve;                ///< before spread and wear
+  std::filesystem::path valve_file{};  ///< that it was read from; empty: a preset
   Protocol protocol;
   bool direction_a = false;  ///< a bench test of direction a, P to A
   Machine machine{};         ///< round the valve at work
