@@ -142,6 +142,24 @@ TEST_F(OutputFileTest, RefusesTwoOutputsOfOneNameBeforeEitherExists) {
               HasSubstr("the same file"));
 }
 
+TEST_F(OutputFileTest, StandardOutputIsOfOneOutputAtATime) {
+  {
+    const OutputFile figures("-");
+    EXPECT_THAT(refusal([&] { OutputFile page("-"); }), HasSubstr("cannot write standard output: another output of"));
+  }
+  EXPECT_NO_THROW(OutputFile("-"));
+}
+
+TEST_F(OutputFileTest, KeepsWhatAnotherWroteIntoTheFolder) {
+  std::ofstream(folder / "spring.csv") << "measured";
+  EXPECT_THAT(
+      refusal([&] {
+        keep_what_is_there(folder, {"ramp.csv", "spring.csv"}, "campaign");
+      }),
+      HasSubstr("spring.csv: it is there already and comes from no earlier campaign; move it, or name another"));
+  EXPECT_NO_THROW(keep_what_is_there(folder, {"ramp.csv"}, "campaign"));
+}
+
 TEST_F(OutputFileTest, SaysThatTheDiskIsFull) {
   OutputFile output("/dev/full");
   output.stream() << "short";

@@ -166,5 +166,13 @@ TEST_F(ReadThroughOthers, AreNotOverwritten) {
   keeps("worn.toml", "analyse " SPOOLFLOW_EXAMPLE_MODEL " --scenario study.toml --json worn.toml");
 }
 
+TEST_F(ReadThroughOthers, TwoOutputsDoNotMixOnStandardOutput) {
+  write("run.toml", "protocol = \"duty_cycle\"\n[run]\nduration_s = 1\n");
+  const Answer answer = run("simulate run.toml -o - --truth -");
+  EXPECT_EQ(answer.status, 2);
+  EXPECT_THAT(answer.message, ::testing::HasSubstr("cannot write standard output: another output of this command"));
+  EXPECT_EQ(answer.output, "");
+}
+
 }  // namespace
 }  // namespace spoolflow::apps

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -185,6 +186,21 @@ void remove_if_left_behind(const fs::path& beside) {
   ::close(descriptor);
 }
 
+/// Standard output, of one output at a time.
+class StandardOutput {
+ public:
+  StandardOutput() {
+    if (taken_.test_and_set())
+      refuse("-", "another output of this command goes there, and the two would mix; name a file for one of them");
+  }
+  ~StandardOutput() { taken_.clear(); }
+  StandardOutput(const StandardOutput&) = delete;
+  StandardOutput& operator=(const StandardOutput&) = delete;
+
+ private:
+  inline static std::atomic_flag taken_;
+};
+
 }  // namespace
 
 struct OutputFile::Target {
@@ -238,6 +254,7 @@ struct OutputFile::Target {
   DescriptorBuffer buffer;
   std::ostream stream;
   std::optional<DescriptorPlaces> places;
+  std::optional<StandardOutput> standard_output;
 };
 
 OutputFile::OutputFile(const fs::path& target, const std::vector<fs::path>& also_used) {
@@ -245,6 +262,7 @@ OutputFile::OutputFile(const fs::path& target, const std::vector<fs::path>& also
   target_ = std::make_unique<Target>(target);
   const auto status = status_of(target);
   if (target == "-") {
+    target_->standard_output.emplace();
     target_->descriptor = STDOUT_FILENO;
     target_->buffer.descriptor(STDOUT_FILENO);
     target_->buffer.stands_for_stdout();
@@ -305,12 +323,22 @@ void commit_together(std::initializer_list<OutputFile*> outputs) {
 }
 
 void make_output_folder(const fs::path& folder) {
+  if (folder == "-") throw OutputError("cannot make the folder -: files go into a folder; name one after -o");
   std::error_code error;
   fs::create_directories(folder, error);
   std::error_code unreadable;
   if (fs::is_directory(folder, unreadable)) return;
   const std::string reason = fs::exists(folder, unreadable) ? "a file of that name is there" : error.message();
   throw OutputError(fmt::format("cannot make the folder {}: {}; name another", folder.string(), reason));
+}
+
+void keep_what_is_there(const fs::path& folder, const std::vector<std::string>& names, const std::string& command) {
+  for (const std::string& name : names) {
+    std::error_code unreadable;
+    if (!fs::exists(folder / name, unreadable)) continue;
+    refuse(folder / name,
+           fmt::format("it is there already and comes from no earlier {}; move it, or name another folder", command));
+  }
 }
 
 }  // namespace spoolflow::apps

@@ -5,6 +5,7 @@
 #include <memory>
 #include <ostream>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "spoolflow/recording/written_tables/table_output.hpp"
@@ -24,11 +25,13 @@ struct ReaderGone : std::runtime_error {
 /// Writes to a temporary file beside the target and gives it the target's name on commit(); what stood there before
 /// stays untouched until then, and for good if commit() is never reached (error, interruption). What a killed run left
 /// beside the target is removed.
-/// "-" is standard output; devices and pipes (/dev/null, /dev/stdout, a FIFO) are written directly.
+/// "-" is standard output, of one output at a time; devices and pipes (/dev/null, /dev/stdout, a FIFO) are written
+/// directly.
 class OutputFile : public recording::TableOutput {
  public:
   /// `also_used`: files that the same command reads or writes; the target must be none of them. Throws OutputError
-  /// where it is, where its folder does not exist, where it is itself a folder, or where writing is not permitted.
+  /// where it is, where standard output is another's, where its folder does not exist, where it is itself a folder, or
+  /// where writing is not permitted.
   explicit OutputFile(const std::filesystem::path& target, const std::vector<std::filesystem::path>& also_used = {});
   /// Without commit(): removes the temporary file.
   ~OutputFile() override;
@@ -61,5 +64,10 @@ void commit_together(std::initializer_list<OutputFile*> outputs);
 
 /// Makes a folder for outputs, parents included, unless it is there. Throws OutputError.
 void make_output_folder(const std::filesystem::path& folder);
+
+/// For a folder in which this command has written nothing yet: throws OutputError where one of these files stands
+/// there.
+void keep_what_is_there(const std::filesystem::path& folder, const std::vector<std::string>& names,
+                        const std::string& command);
 
 }  // namespace spoolflow::apps
