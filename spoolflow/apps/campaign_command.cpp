@@ -29,6 +29,17 @@ void store(const std::filesystem::path& folder, const rig::CampaignItem& item, c
   recording.commit();
 }
 
+/// An earlier campaign of the rig is replaced, other files are not.
+void refuse_to_replace(const std::filesystem::path& folder, const std::vector<rig::CampaignItem>& items) {
+  if (rig::is_virtual_campaign(folder / "campaign.toml")) return;
+  std::vector<std::string> names{"campaign.toml"};
+  for (const rig::CampaignItem& item : items) {
+    names.push_back(item.file);
+    names.push_back("truth/" + item.file);
+  }
+  keep_what_is_there(folder, names, "campaign of the virtual rig");
+}
+
 }  // namespace
 
 void campaign(const CampaignArguments& arguments) {
@@ -39,6 +50,10 @@ void campaign(const CampaignArguments& arguments) {
   const auto items = arguments.calibration_only ? rig::calibration_items(asked.valve, asked.campaign)
                                                 : rig::campaign_items(asked.valve, asked.campaign);
   make_output_folder(folder);
+  refuse_to_replace(folder, items);
+  OutputFile text(folder / "campaign.toml");  // first: it says that the recordings beside it may be made again
+  text.stream() << rig::campaign_text(asked.valve, items);
+  text.commit();
   if (arguments.with_truth) {
     make_output_folder(folder / "truth");
   }
@@ -50,21 +65,20 @@ void campaign(const CampaignArguments& arguments) {
                               .workers = parallel::cores(),
                               .with_truth = arguments.with_truth});
   }
-  OutputFile text(folder / "campaign.toml");
-  text.stream() << rig::campaign_text(asked.valve, items);
-  text.commit();
 }
 
 void add_campaign_command(CLI::App& program) {
   CLI::App* command = add_command(
-      program, {.name = "campaign",
-                .purpose = "make a whole measuring campaign of a valve on the virtual test rig",
-                .reads = "a valve file (TOML), or the name of a built-in valve: size_6, size_10, fast_dither, and with "
-                         "both directions "
-                         "whole_size_6, whole_differential",
-                .writes = "a folder: bench tests, operating runs and campaign.toml, which spoolflow calibrate reads",
-                .examples = {"spoolflow campaign examples/valves/size_6.toml -o campaign",
-                             "spoolflow campaign size_10 --bench flow -o flow_bench"}});
+      program,
+      {.name = "campaign",
+       .purpose = "make a whole measuring campaign of a valve on the virtual test rig",
+       .reads = "a valve file (TOML), or the name of a built-in valve: size_6, size_10, fast_dither, and with "
+                "both directions "
+                "whole_size_6, whole_differential",
+       .writes = "a folder: bench tests, operating runs and campaign.toml, which spoolflow calibrate reads; an "
+                 "earlier campaign of the rig is replaced, other files of these names are refused",
+       .examples = {"spoolflow campaign examples/valves/size_6.toml -o campaign",
+                    "spoolflow campaign size_10 --bench flow -o flow_bench"}});
   auto arguments = std::make_shared<CampaignArguments>();
   command->add_option("valve", arguments->valve, "valve file or name of a built-in valve")
       ->type_name("VALVE.toml")

@@ -12,6 +12,7 @@
 #include "spoolflow/apps/terminal/output_file.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/report/text/reader_units.hpp"
+#include "spoolflow/rig/bench/virtual_campaign.hpp"
 
 namespace spoolflow::apps {
 namespace {
@@ -31,11 +32,21 @@ struct DemoArguments {
   bool quiet = false;
 };
 
+/// An earlier demonstration, which its campaign shows, is replaced, other files are not.
+void refuse_to_replace(const std::filesystem::path& folder) {
+  if (rig::is_virtual_campaign(folder / "campaign" / "campaign.toml")) return;
+  keep_what_is_there(folder,
+                     {"valve.toml", "duty_cycle.toml", "duty_cycle.csv", "duty_cycle_truth.csv", "model.json",
+                      "calibration.html", "estimate.csv", "report.html", "metrics.json"},
+                     "demonstration");
+}
+
 void demo(const DemoArguments& arguments) {
   const report::ReaderUnits refused_early(arguments.units);  // before minutes of simulation
   const std::filesystem::path folder = arguments.folder;
   const auto in_folder = [&](const char* name) { return (folder / name).string(); };
   make_output_folder(folder);
+  refuse_to_replace(folder);
   const std::string from = arguments.valve + "/";
   for (const EmbeddedFile& file : demo_files()) {
     if (!file.name.starts_with(from)) continue;

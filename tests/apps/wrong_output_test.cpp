@@ -166,6 +166,22 @@ TEST_F(ReadThroughOthers, AreNotOverwritten) {
   keeps("worn.toml", "analyse " SPOOLFLOW_EXAMPLE_MODEL " --scenario study.toml --json worn.toml");
 }
 
+TEST_F(ReadThroughOthers, ACampaignOfTheRigReplacesNoOther) {
+  std::filesystem::create_directory(folder / "bench");
+  write("bench/spring.csv", "time_s,position_mm,axial_force_N\n");
+  for (const char* command : {"campaign size_6 -o bench", "campaign size_6 --truth -o bench"}) {
+    const Answer answer = run(command);
+    EXPECT_EQ(answer.status, 2);
+    EXPECT_THAT(answer.message, ::testing::HasSubstr("bench/spring.csv: it is there already and comes from no earlier "
+                                                     "campaign of the virtual rig; move it"));
+  }
+  EXPECT_EQ(content("bench/spring.csv"), "time_s,position_mm,axial_force_N\n");
+  EXPECT_FALSE(std::filesystem::exists(folder / "bench" / "campaign.toml"));
+  write("model.json", "{}");
+  EXPECT_THAT(run("demo -o .").message, ::testing::HasSubstr("model.json: it is there already"));
+  EXPECT_THAT(run("campaign size_6 -o -").message, ::testing::HasSubstr("name one after -o"));
+}
+
 TEST_F(ReadThroughOthers, TwoOutputsDoNotMixOnStandardOutput) {
   write("run.toml", "protocol = \"duty_cycle\"\n[run]\nduration_s = 1\n");
   const Answer answer = run("simulate run.toml -o - --truth -");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <fstream>
 #include <mutex>
 #include <numeric>
 
@@ -70,6 +71,8 @@ std::string of_whole_valve(const ValveUnderTest& valve) {
          "added.\n";
 }
 
+constexpr std::string_view campaign_begin = "# What was measured on this virtual valve";
+
 }  // namespace
 
 ValveAndCampaign read_valve_and_campaign(const std::string& valve) {
@@ -117,10 +120,17 @@ std::vector<CampaignItem> campaign_items(const ValveUnderTest& valve, const Camp
   return items.take();
 }
 
+bool is_virtual_campaign(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  return std::getline(in, line) && line.starts_with(campaign_begin);
+}
+
 std::string campaign_text(const ValveUnderTest& valve, const std::vector<CampaignItem>& items) {
   const Oil& oil = valve.plant.oil;
-  std::string text = fmt::format(
-      R"(# What was measured on this virtual valve, for calibration. Channels follow the <channel>_<unit> naming,
+  std::string text = std::string(campaign_begin);
+  text += fmt::format(
+      R"(, for calibration. Channels follow the <channel>_<unit> naming,
 # so no [recording.channels] tables are needed. Simulated; seed {seed}.
 [valve]
 name = "{name}"

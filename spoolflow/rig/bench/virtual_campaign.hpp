@@ -1,6 +1,7 @@
 #pragma once
 /// A whole campaign of one virtual valve: the bench tests that calibrate it and the operating runs that judge the
 /// result, under the file names of a real campaign.
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -25,6 +26,9 @@ struct ValveAndCampaign {
 
 /// campaign.toml for those items.
 [[nodiscard]] std::string campaign_text(const ValveUnderTest& valve, const std::vector<CampaignItem>& items);
+
+/// Whether a file is such a campaign.toml.
+[[nodiscard]] bool is_virtual_campaign(const std::filesystem::path& file);
 
 struct CampaignWork {
   /// Gets each finished recording, from the worker that made it; calls for different items may overlap.
