@@ -1,5 +1,6 @@
 /// `spoolflow plan`: the strokes after which a unit is known best in the time that there is.
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -13,6 +14,7 @@
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/calibration/type/plan_minute.hpp"
 #include "spoolflow/estimation/running_sensor.hpp"
+#include "spoolflow/rig/bench/virtual_campaign.hpp"
 #include "spoolflow/uncertainty/operating_point.hpp"
 #include "spoolflow/units/conversion.hpp"
 
@@ -92,17 +94,29 @@ void print_plan(const model::Model& type, const calibration::PlannedMinute& minu
       per_cent * expected_half_width(calibration::planned_unit(type, minute)));
 }
 
+/// The valve as a scenario names it: a built-in one, or a file by its path from the scenario's folder. Throws
+/// SettingsError where `simulate` could not read it.
+std::string valve_in_scenario(const PlanArguments& arguments) {
+  static_cast<void>(rig::read_valve_and_campaign(arguments.valve));
+  if (!arguments.valve.ends_with(".toml")) return arguments.valve;
+  const std::filesystem::path folder = std::filesystem::absolute(arguments.scenario).parent_path();
+  return std::filesystem::proximate(arguments.valve, folder).generic_string();
+}
+
 void plan(const PlanArguments& arguments) {
   apps::refuse_other_kinds("plan", {{arguments.type, FileKind::model}});
-  OutputFile table(arguments.table, {arguments.type, arguments.scenario});
+  OutputFile table(arguments.table, {arguments.type, arguments.scenario, arguments.valve});
   std::unique_ptr<OutputFile> scenario;
-  if (!arguments.scenario.empty())
-    scenario = std::make_unique<OutputFile>(arguments.scenario,
-                                            std::vector<std::filesystem::path>{arguments.type, arguments.table});
+  std::string valve;
+  if (!arguments.scenario.empty()) {
+    valve = valve_in_scenario(arguments);
+    scenario = std::make_unique<OutputFile>(
+        arguments.scenario, std::vector<std::filesystem::path>{arguments.type, arguments.table, arguments.valve});
+  }
   const model::Model type = model::read_model(arguments.type);
   const calibration::PlannedMinute minute = calibration::plan_minute(type, arguments.type, arguments.seconds);
   write_table(table.stream(), minute);
-  if (scenario) write_scenario(scenario->stream(), minute, arguments.valve);
+  if (scenario) write_scenario(scenario->stream(), minute, valve);
   commit_together({&table, scenario.get()});
   if (!arguments.quiet) print_plan(model::of_direction(type, "b"), minute);
 }

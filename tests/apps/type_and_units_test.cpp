@@ -75,6 +75,13 @@ TEST_F(TypeAndUnits, ASeriesHasItsPageAndUpdatesItsType) {
   EXPECT_THAT(plan.message, HasSubstr("the sensor's band"));
   EXPECT_THAT(content("plan.csv"),
               HasSubstr("time_s,position_set_percent,pressure_difference_set_bar,dither_A\n0.00,"));
+  EXPECT_THAT(run("plan next.json -o other.csv --scenario other.toml --valve size_7").message,
+              HasSubstr("valve \"size_7\" is no preset; choose one of size_6"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "other.toml"));
+  write("worn.toml", "preset = \"size_6\"\n");
+  std::filesystem::create_directory(folder / "plans");
+  ASSERT_EQ(run("plan next.json --seconds 14 -o other.csv --scenario plans/worn.toml --valve worn.toml -q").status, 0);
+  EXPECT_THAT(content("plans/worn.toml"), HasSubstr("valve = \"../worn.toml\""));
   const Answer simulated = run("simulate plan.toml -o run.csv -q");
   ASSERT_EQ(simulated.status, 0) << simulated.message;
 
