@@ -52,7 +52,16 @@ void inspect_folder(const InspectArguments& arguments) {
   print_text(arguments.json ? folder_json(entries) : folder_text(arguments.file, entries));
 }
 
+/// The bytes of a pipe come once, and `inspect` looks at them more than once.
+void refuse_pipe(const std::string& file) {
+  std::error_code failure;
+  if (file == "-" || !std::filesystem::is_fifo(file, failure)) return;
+  throw std::invalid_argument(
+      fmt::format("{0}: is a pipe; give what it holds on standard input: spoolflow inspect - < {0}", file));
+}
+
 void inspect(const InspectArguments& arguments) {
+  refuse_pipe(arguments.file);
   if (std::error_code failure; std::filesystem::is_directory(arguments.file, failure)) return inspect_folder(arguments);
   if (arguments.protocol.empty() && inspect_image(arguments.file, arguments.json)) return;
   if (!arguments.protocol.empty() && arguments.file == "-") {

@@ -184,7 +184,8 @@ void Plausibility::check_sampling(const Watched& time, std::span<const double> t
         "the past alone; give the samples in the order of time",
         file_, time.column->name, time_s.front()));
   }
-  if (steps_s.size() < 2) return;
+  const bool rounded = 2 * steps_s.size() < time_s.size();  // such times step by their last digit, not by the sample
+  if (steps_s.size() < 2 || rounded) return;
   const double apart_s = numerics::median(std::move(steps_s));
   if (in_range(apart_s, shortest_step_s, longest_step_s)) return;
   const std::string better = better_units(time, apart_s, 0.0);
