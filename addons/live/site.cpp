@@ -43,6 +43,15 @@ bool flag(const TomlTable& table, std::string_view key) {
   return *value;
 }
 
+/// Raw samples are kept in memory until an alarm asks for them.
+double raw_span_s(const TomlTable& store, std::string_view key, double otherwise) {
+  constexpr double longest_s = 3600;
+  const double value = store.optional_number(key).value_or(otherwise);
+  if (value >= 0 && value <= longest_s) return value;
+  throw SiteError(fmt::format("{}: '{}' in {} is {}; give the raw samples about an alarm in s, 0 to {}",
+                              store.place(key), key, store.name, value, longest_s));
+}
+
 double not_negative(const TomlTable& table, std::string_view key, double otherwise) {
   const double value = table.optional_number(key).value_or(otherwise);
   if (value < 0) {
@@ -210,8 +219,8 @@ void read_parts(const TomlTable& top, SiteSettings& site) {
     store->allow_only({"file", "keep_days", "largest_MB", "raw_before_s", "raw_after_s"});
     site.store = beside(*store, store->text("file")).string();
     site.retention.days = store->optional_positive("keep_days").value_or(site.retention.days);
-    site.raw_before_s = not_negative(*store, "raw_before_s", site.raw_before_s);
-    site.raw_after_s = not_negative(*store, "raw_after_s", site.raw_after_s);
+    site.raw_before_s = raw_span_s(*store, "raw_before_s", site.raw_before_s);
+    site.raw_after_s = raw_span_s(*store, "raw_after_s", site.raw_after_s);
     site.retention.largest_MB = store->optional_positive("largest_MB").value_or(site.retention.largest_MB);
   }
   if (const auto sources = part("sources")) {

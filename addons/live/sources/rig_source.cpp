@@ -11,7 +11,8 @@ namespace spoolflow::live {
 namespace {
 
 constexpr double shift_s = 1800;  ///< of work that is planned at a time
-constexpr double piece_s = 0.01;  ///< of samples that are handed over together
+constexpr double piece_s = 0.01;  ///< of samples that are handed over together, of the time in which they come
+constexpr std::size_t largest_block = 1024;
 constexpr double ages_every_s = 1;
 
 struct Stopped {};
@@ -84,7 +85,8 @@ void RigSource::run(const std::stop_token& stop) {
         block.samples.push_back(timed(sample, added_s));
         ++next_;
         worked_s = block.samples.back().time_s + period_s;
-        if (block.samples.back().time_s - block.samples.front().time_s < piece_s * settings_.speed) return;
+        const double length_s = block.samples.back().time_s - block.samples.front().time_s;
+        if (length_s < piece_s * settings_.speed && block.samples.size() < largest_block) return;
         const auto due = std::chrono::duration<double>((worked_s - before_s) / settings_.speed);
         if (!parallel::wait_until(begin + std::chrono::duration_cast<std::chrono::nanoseconds>(due), stop))
           throw Stopped();

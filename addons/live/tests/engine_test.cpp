@@ -269,6 +269,14 @@ TEST_F(EngineTest, ARigValveWorks) {
   EXPECT_FALSE(engine.view(0).indicators.empty());
 }
 
+TEST_F(EngineTest, ARigValveThatWorksAsFastAsItCanIsHeardAndEnds) {
+  const RigSettings rig{.valve = rig::valve_preset("size_6"), .seed = 3, .speed = 1e9};
+  Engine engine(site({{"v", rig}}), "test");
+  engine.start();
+  EXPECT_TRUE(has(engine, 0, 3000));
+  engine.stop();
+}
+
 TEST_F(EngineTest, APlotKeepsEveryPeak) {
   PlotTrace trace;
   sensor::Estimate<double> answer{};

@@ -105,6 +105,9 @@ TEST_F(SiteTest, SaysWhatIsWrongAndWhatToDo) {
   write("site.toml", "[page]\n");
   EXPECT_THAT(refusal([&] { (void)read_site(path("site.toml")); }), HasSubstr("holds no valve"));
   const std::string rig = "source = { kind = \"rig\" }\n";
+  for (const char* span : {"-1", "1e9"})
+    EXPECT_THAT(refused(rig, std::string("[store]\nfile = \"x.sqlite\"\nraw_before_s = ") + span + "\n"),
+                HasSubstr("give the raw samples about an alarm in s, 0 to 3600"));
   EXPECT_THAT(refused(rig, "[[valve]]\nid = \"press_1\"\nmodel = \"m.json\"\n" + rig),
               HasSubstr("two valves have the id"));
 }
