@@ -84,7 +84,7 @@ class Judge {
 
   [[nodiscard]] JudgedLimit together(const Limit& limit) const {
     const estimation::Estimator estimator = limit.estimator.value_or(validation_.pooled.back().estimator);
-    if (!validation_.held_out) return judged(limit, "all runs", estimator, std::nullopt);
+    if (!validation_.held_out) return known(limit, "all runs", estimator);
     if (limit.figure == Figure::fault_share) return judged(limit, "all runs", estimator, fault_share(estimator));
     for (const PooledResult& pooled : validation_.pooled) {
       if (pooled.estimator != estimator || !pooled.metrics) continue;
@@ -95,7 +95,7 @@ class Judge {
   }
   [[nodiscard]] JudgedLimit alone(const Limit& limit, const RunResult& run) const {
     const estimation::Estimator estimator = limit.estimator.value_or(validation_.pooled.back().estimator);
-    if (run.calibrated_with) return judged(limit, run.name, estimator, std::nullopt);
+    if (run.calibrated_with) return known(limit, run.name, estimator);
     const EstimatorResult& result = result_of(run, estimator);
     if (limit.figure == Figure::fault_share) {
       return judged(limit, run.name, estimator,
@@ -123,6 +123,10 @@ class Judge {
     const bool met =
         value && (!limit.at_least || *value >= *limit.at_least) && (!limit.at_most || *value <= *limit.at_most);
     return {limit, run, estimator, value, met};
+  }
+  /// What the calibration read meets a limit by itself.
+  [[nodiscard]] static JudgedLimit known(const Limit& limit, const std::string& run, estimation::Estimator estimator) {
+    return {limit, run, estimator, std::nullopt, false, true};
   }
 
   const Validation& validation_;

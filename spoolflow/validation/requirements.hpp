@@ -72,6 +72,7 @@ struct JudgedLimit {
   estimation::Estimator estimator;
   std::optional<double> value;  ///< in the limit's unit
   bool met;
+  bool calibrated_with = false;  ///< not judged: the calibration read every run that it is of
 };
 
 /// What is judged where the user asks nothing: 95 % of the errors within 5 % of full scale, and a band that holds at

@@ -58,6 +58,11 @@ void check_bounds(const Limit& limit, const TomlTable& table) {
                                        share_of_samples ? "between 0 and 100 %" : "at or above zero"));
     }
   }
+  if (share_of_samples && limit.at_least && *limit.at_least > 0 && *limit.at_least <= 1) {
+    throw RecordingError(fmt::format("{}: 'at_least' in {} is {} %, which says nothing of {}; write 95 for 95 %",
+                                     table.place("at_least"), table.name, *limit.at_least,
+                                     name_of(figure_names, limit.figure)));
+  }
   if (limit.at_least && limit.at_most && *limit.at_least > *limit.at_most) {
     throw RecordingError(fmt::format("{}: at_least = {} is above at_most = {}; nothing can meet that",
                                      table.place("at_least"), *limit.at_least, *limit.at_most));

@@ -52,6 +52,8 @@ TEST_F(Requirements, ThatCannotBeUsedStopTheCommandBeforeAnythingIsWritten) {
   for (const auto& [limits, reason] :
        {std::pair{"[[limit]]\nfigure = 'p95'\n", "line 1"},
         std::pair{"[[limit]]\nfigure = 'p95'\nat_most = 1\nrun = 'rnu'\n", "did you mean 'run'"},
+        std::pair{"[[limit]]\nfigure = 'band_coverage'\nat_least = 0.95\n",
+                  "line 3: 'at_least' in limit 1 is 0.95 %, which says nothing of band_coverage; write 95 for 95 %"},
         std::pair{"[[limit]\n", "line 1"}}) {
     write("limits.toml", limits);
     const Answer answer = run("validate model.json run.csv --requirements limits.toml --report report.html");
@@ -61,6 +63,14 @@ TEST_F(Requirements, ThatCannotBeUsedStopTheCommandBeforeAnythingIsWritten) {
     EXPECT_EQ(content("report.html"), "earlier");
   }
   EXPECT_EQ(run("validate model.json run.csv --requirements missing.toml").status, 2);
+}
+
+TEST_F(Requirements, WhatTheCalibrationReadIsNoTestAndIsSaidToBeNone) {
+  write("limits.toml", "[[limit]]\nfigure = 'p95'\nat_most = 50\n");
+  const Answer answer =
+      run("validate model.json " SPOOLFLOW_EXAMPLES "/valve_a/ramp_60bar.h5 --requirements limits.toml --fail-unmet");
+  EXPECT_EQ(answer.status, 1);
+  EXPECT_THAT(answer.output, HasSubstr("found no independent test: the calibration read it; give a run that it did"));
 }
 
 TEST_F(Requirements, OtherValidationsStandBesideThisOneInTheReport) {

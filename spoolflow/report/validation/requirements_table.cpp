@@ -94,6 +94,7 @@ Text limit_text(const JudgedLimit& judged) {
 }
 
 Text value_text(const JudgedLimit& judged) {
+  if (judged.calibrated_with) return "no independent test: the calibration read it; give a run that it did not read";
   if (!judged.value) return "nothing: no reference flow, or no such samples";
   if (judged.limit.unit == validation::LimitUnit::litre_per_minute) return fixed(limit_flow(*judged.value), 2);
   return fixed(*judged.value, 2) + " " + std::string(name_of(validation::limit_unit_names, judged.limit.unit));
