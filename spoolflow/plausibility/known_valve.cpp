@@ -72,6 +72,9 @@ std::vector<KnownValve> known_valve(const model::Model& model) {
     out.back().position_noise_m = observer->parameters.position_sensor.noise_m;
     out.back().oil_temperature_K = observer->oil_temperature_K;
     out.back().closed_below_m = observer->parameters.closed_below_m;
+    if (model.whole()) return;
+    out.back().flux_Wb = [map = observer->parameters.actuator.coil.flux_linkage.map](
+                             double current_A, double position_m) { return map.at(current_A, position_m).value; };
   };
   add_observed(model.observer);
   if (model.whole()) {

@@ -1,5 +1,6 @@
 #pragma once
 /// The valve that a run is held against, as its model or its benches know it.
+#include <functional>
 #include <vector>
 
 #include "spoolflow/model/model.hpp"
@@ -18,6 +19,7 @@ struct KnownValve {
   model::Range oil_temperature_K{0, 0};  ///< as calibrated; 0: not known
   OpeningCurve opening{};                ///< empty: not known
   double closed_below_m = 0;             ///< the spool covers the edge there; 0: not known
+  std::function<double(double current_A, double position_m)> flux_Wb{};  ///< of a model of one direction; else empty
 };
 
 /// The model's directions: "b", or "a" of a model of that alone, and then "a" of a whole valve.

@@ -18,6 +18,7 @@
 #include "spoolflow/plausibility/recording_error.hpp"
 #include "spoolflow/plausibility/reference_shift.hpp"
 #include "spoolflow/plausibility/run_relations.hpp"
+#include "spoolflow/plausibility/signals/clock_rate.hpp"
 #include "spoolflow/plausibility/signals/coil_signals.hpp"
 #include "spoolflow/plausibility/steady_lines.hpp"
 #include "spoolflow/plausibility/zero_findings.hpp"
@@ -337,6 +338,9 @@ std::vector<Finding> run_findings(const std::vector<KnownValve>& valve, const Ru
     for (const std::string& line : steady_line_findings(run.steady_lines(), known)) add(false, line);
   }
   if (error) add(error->cannot_be, error->text);
+  // A wrong current, voltage or position looks like it: the clock it is where nothing else speaks against the run.
+  if (out.empty() && free_of_dither(run.steady_lines()))
+    add(true, wrong_clock(trial.run, {valve.front().resistance_Ohm, valve.front().flux_Wb}));
   return out;
 }
 

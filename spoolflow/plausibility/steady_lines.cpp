@@ -229,6 +229,11 @@ std::optional<SpectralLine> undriven_line(const Spectrum& current, const Spectru
 
 }  // namespace
 
+bool free_of_dither(const SteadyLines& run) {
+  const std::array<Spectrum, 2> current{run.current[0].median(), run.current[1].median()};
+  return !current[0].power.empty() && dither_lines(run, current).empty();
+}
+
 std::vector<std::string> steady_line_findings(const SteadyLines& run, const SteadyValve& valve) {
   const Spectrum position = run.position.median();
   const std::array current{run.current[0].median(), run.current[1].median()};

@@ -69,6 +69,9 @@ struct SteadyValve {
   std::array<double, 2> resistance_Ohm{};  ///< of each coil; 0: not known
 };
 
+/// Whether the current's spectrum is known, and none of dither.
+[[nodiscard]] bool free_of_dither(const SteadyLines& run);
+
 /// In words what shakes the spool, and what beats in a coil's current beside dither and what follows from it: a line of
 /// the position of the valve's noise, beside dither 2.5 times that, of a current of a thousandth of its largest value
 /// at least, beside dither of four. Below 15 Hz a current moves the spool, too, and one beats whose voltage is less

@@ -80,6 +80,17 @@ TEST_F(EstimateFaults, ValuesThatAreMissingAreCountedByChannelWithWhatTheEstimat
   EXPECT_THAT(answer.message, HasSubstr("40 values of oil_temperature are missing; the last one stands in there"));
 }
 
+TEST_F(EstimateFaults, AClockThatRunsTooFastIsReportedByTheInducedVoltage) {
+  const auto said_with = [&](const std::string& scale) {
+    write("map.toml", "[channels]\ntime = { column = \"time_s\", unit = \"s\", scale = " + scale + " }\n");
+    return run("estimate -q " SPOOLFLOW_EXAMPLE_MODEL " " SPOOLFLOW_EXAMPLES
+               "/valve_a/duty_cycle_1.h5 --channels map.toml -o /dev/null")
+        .message;
+  };
+  EXPECT_THAT(said_with("0.6"), HasSubstr("duty_cycle_1.h5: time runs 1.6 times too fast"));
+  EXPECT_THAT(said_with("1"), Not(HasSubstr("time runs")));
+}
+
 TEST_F(EstimateFaults, AVoltageOfSeveralSuppliesIsReported) {
   const std::vector<Row> sound = estimate([](double current_A) { return std::pair(current_A, 2.9 * current_A); });
   const std::vector<Row> rows = estimate([](double current_A) { return std::pair(current_A, 200.0); });
