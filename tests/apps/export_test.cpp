@@ -42,6 +42,16 @@ TEST_F(Export, ReplacesAnEarlierExportAndLeavesTheRest) {
   EXPECT_THAT(content("valve/golden_points.hpp"), StartsWith("// Made by"));
 }
 
+TEST_F(Export, DoesNotMixTwoKindsInOneFolder) {
+  std::filesystem::create_directory(folder / "valve");
+  write("valve/exported.sha256", std::string(64, 'a') + "  libvalve_sensor.a\n");
+  const Answer answer = run("export cpp '" + model + "' -o valve");
+  EXPECT_EQ(answer.status, 2);
+  EXPECT_THAT(answer.message, HasSubstr("cannot export into valve: libvalve_sensor.a there is of an export of another "
+                                        "kind, whose files have the same names; name another folder"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "valve/valve_model.hpp"));
+}
+
 TEST_F(Export, KeepsWhatWasChangedSinceTheLastExport) {
   ASSERT_EQ(run("export cpp '" + model + "' -o valve").status, 0);
   const std::string mine = content("valve/example.cpp") + "// mine\n";

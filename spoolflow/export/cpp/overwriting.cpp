@@ -1,8 +1,11 @@
 #include "spoolflow/export/cpp/overwriting.hpp"
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -26,10 +29,29 @@ std::map<std::string, std::string> record_of(const fs::path& folder) {
   return out;
 }
 
+/// Each is in folders of its own kind alone: the model for C++, the library for C.
+constexpr std::array<std::string_view, 2> made_for{cpp_model_name, "libvalve_sensor.a"};
+
+/// What the folder holds of an export of the other kind; empty: nothing.
+std::string_view of_another_kind(const std::map<std::string, std::string>& record,
+                                 const std::vector<ExportedFile>& files) {
+  for (const std::string_view kind : made_for) {
+    if (record.contains(std::string(kind)) && std::ranges::find(files, kind, &ExportedFile::name) == files.end())
+      return kind;
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string why_not_to_overwrite(const fs::path& folder, const std::vector<ExportedFile>& files) {
   const std::map<std::string, std::string> record = record_of(folder);
+  if (const std::string_view other = of_another_kind(record, files); !other.empty()) {
+    return fmt::format(
+        "cannot export into {}: {} there is of an export of another kind, whose files have the same "
+        "names; name another folder",
+        folder.string(), other);
+  }
   for (const ExportedFile& file : files) {
     const fs::path target = folder / file.name;
     std::error_code unreadable;
