@@ -137,9 +137,8 @@ std::string wrong_clock(const Recording& run, const KnownCoil& coil) {
   const bool fast = found.share < 1;
   return fmt::format(
       "time runs {:.1f} times too {}: beside its resistance the coil has {:.2f} times the voltage that its changing "
-      "flux "
-      "induces in the time recorded (sound runs have 0.9 to 1.3); look at the "
-      "recorder's sample rate and the time's unit, and correct the time in the channel map",
+      "flux induces in the time recorded (sound runs have 0.9 to 1.3); look at the recorder's sample rate and the "
+      "time's unit, and correct the time in the channel map",
       fast ? 1 / found.share : found.share, fast ? "fast" : "slow", found.share);
 }
 
