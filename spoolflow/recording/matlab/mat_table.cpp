@@ -1,6 +1,9 @@
 #include "spoolflow/recording/matlab/mat_table.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <fstream>
 #include <map>
 #include <set>
 #include <string_view>
@@ -14,7 +17,6 @@
 #include "spoolflow/recording/files/hdf5_unread.hpp"
 #include "spoolflow/recording/files/matrix_names.hpp"
 #include "spoolflow/recording/files/vector_table.hpp"
-#include "spoolflow/recording/matlab/mat_elements.hpp"
 #include "spoolflow/recording/matlab/mat_labels.hpp"
 
 namespace spoolflow::recording {
@@ -30,6 +32,35 @@ struct VariableFreer {
   void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
 };
 using Variable = std::unique_ptr<matvar_t, VariableFreer>;
+
+/// A MATLAB file of version 5 is a header of 128 bytes and a chain of elements, each with its length: the chain must
+/// end where the file ends, which matio does not look at (it reads on as if zeros followed). Throws RecordingError.
+/// Other versions pass.
+void refuse_cut_mat_file(const std::filesystem::path& file) {
+  constexpr std::uintmax_t header_bytes = 128;
+  constexpr std::uintmax_t tag_bytes = 8;
+  std::ifstream in(file, std::ios::binary);
+  std::array<char, header_bytes> header{};
+  in.read(header.data(), header.size());
+  const std::uintmax_t size = std::filesystem::file_size(file);
+  const bool little_endian = header[126] == 'I' && header[127] == 'M';
+  const bool version_5 = header[little_endian ? 125 : 124] == 1;
+  if (in && !version_5) return;
+  std::uintmax_t at = header_bytes;
+  while (in && at < size) {
+    std::array<unsigned char, tag_bytes> tag{};
+    in.seekg(static_cast<std::streamoff>(at));
+    in.read(reinterpret_cast<char*>(tag.data()), tag.size());
+    std::uintmax_t length = 0;
+    for (std::size_t k = 0; k < 4; ++k) length |= std::uintmax_t{tag[4 + k]} << (8 * (little_endian ? k : 3 - k));
+    at += tag_bytes + length;
+  }
+  if (at == size) return;
+  throw RecordingError(
+      fmt::format("{}: the MATLAB file is cut short or damaged: it has {} bytes, its variables need "
+                  "{}; copy it or save it again",
+                  file.string(), size, at));
+}
 
 template <class Value>
 void convert(const void* data, std::uint64_t first, std::uint64_t stride, std::size_t count, double* out) {

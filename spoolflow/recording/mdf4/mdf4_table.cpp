@@ -1,15 +1,109 @@
 #include "spoolflow/recording/mdf4/mdf4_table.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <functional>
 #include <map>
 #include <set>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/mdf4/mdf4_walk.hpp"
+#include "spoolflow/recording/mdf4/mdf4_contents.hpp"
 
 namespace spoolflow::recording {
 namespace {
+
+constexpr std::uint64_t bytes_at_once = std::uint64_t{1} << 18U;
+constexpr std::uint64_t length_bytes = 4;
+
+std::uint64_t whole(const std::uint8_t* from, std::uint64_t bytes) {
+  std::uint64_t out = 0;
+  for (std::uint64_t k = bytes; k-- > 0;) out = out << 8U | from[k];
+  return out;
+}
+
+/// A stream's bytes, as they are asked for.
+class Mdf4Bytes {
+ public:
+  /// `of`: for messages.
+  explicit Mdf4Bytes(Mdf4Stream& stream, std::string of) : stream_(&stream), of_(std::move(of)) {}
+  /// Those from `at` on, until the next call. Throws RecordingError where there are fewer.
+  const std::uint8_t* from(std::uint64_t at, std::uint64_t count) {
+    if (at < begin_ || at + count > begin_ + buffer_.size()) {
+      if (at > stream_->size() || count > stream_->size() - at) refuse_mdf4(of_, "its records end too soon");
+      buffer_.resize(static_cast<std::size_t>(std::min(stream_->size() - at, std::max(bytes_at_once, count))));
+      begin_ = at;
+      stream_->read(at, buffer_);
+    }
+    return buffer_.data() + (at - begin_);
+  }
+
+ private:
+  Mdf4Stream* stream_;
+  std::string of_;
+  std::vector<std::uint8_t> buffer_{};
+  std::uint64_t begin_ = 0;  ///< byte of the stream with which the buffer begins
+};
+
+/// The records of one group from the first to the last, a stretch after the other.
+class Mdf4Walk {
+ public:
+  /// `group` must outlive it.
+  explicit Mdf4Walk(const Mdf4Group& group)
+      : group_(&group), bytes_(group.records->stream, group.what()), apart_(group.records->invalid, group.what()) {}
+
+  /// Shows each of `count` records from `first` on, without its number but with what of it is kept apart, with its
+  /// index. Forward it goes on from where it is; back it starts again. Throws RecordingError where the records end too
+  /// soon.
+  void show(std::uint64_t first, std::size_t count,
+            const std::function<void(const std::uint8_t*, std::uint64_t)>& record) {
+    const Mdf4Records& records = *group_->records;
+    const std::uint64_t each = group_->record_bytes + records.number_bytes;
+    if (records.bytes.size() == 1) {
+      at_ = first * each, next_ = first;
+    } else if (first < next_) {
+      at_ = 0, next_ = 0;
+    }
+    for (; next_ < first + count; ++next_) {
+      const std::uint64_t at = next_own();
+      const std::uint8_t* content = bytes_.from(at, group_->record_bytes);
+      if (group_->apart_bytes > 0) {
+        joined_.assign(content, content + group_->record_bytes);
+        const std::uint8_t* const apart = apart_.from(next_ * group_->apart_bytes, group_->apart_bytes);
+        joined_.insert(joined_.end(), apart, apart + group_->apart_bytes);
+        content = joined_.data();
+      }
+      if (next_ >= first) record(content, next_);
+      at_ = at + group_->record_bytes;
+    }
+  }
+
+ private:
+  /// Of several kinds: where the next record of this one begins, behind its number.
+  std::uint64_t next_own() {
+    const Mdf4Records& records = *group_->records;
+    const std::uint64_t number_bytes = records.number_bytes;
+    for (;;) {
+      const std::uint64_t number =
+          number_bytes == 0 ? group_->number : whole(bytes_.from(at_, number_bytes), number_bytes);
+      at_ += number_bytes;
+      if (number == group_->number || records.bytes.size() == 1) return at_;
+      const auto kind = records.bytes.find(number);
+      if (kind == records.bytes.end()) {
+        refuse_mdf4(group_->what(), fmt::format("records of the number {}, which no group has", number));
+      }
+      at_ += records.of_any_length.at(number) ? length_bytes + whole(bytes_.from(at_, length_bytes), length_bytes)
+                                              : kind->second;
+    }
+  }
+
+  const Mdf4Group* group_;
+  std::uint64_t at_ = 0;    ///< byte of the stream, behind record next_ - 1
+  std::uint64_t next_ = 0;  ///< index of the record that comes next
+  Mdf4Bytes bytes_, apart_;
+  std::vector<std::uint8_t> joined_{};  ///< a record whose parts stand in two streams
+};
 
 class Mdf4Table final : public VectorTable {
  public:

@@ -1,21 +1,102 @@
 #include <algorithm>
 #include <bit>
+#include <cstdint>
 #include <cstring>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "spoolflow/numerics/little_endian.hpp"
-#include "spoolflow/recording/written_tables/mat_variable.hpp"
 #include "spoolflow/recording/written_tables/table_writers.hpp"
 
 namespace spoolflow::recording {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
+using numerics::put_little_endian;
 
 static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
 
 constexpr std::size_t rows_of_a_strip = 65536;
 constexpr std::uint64_t most_rows = (std::uint64_t{1} << 28U) - 16;  // a variable has less than 2^31 bytes
+
+// Variables of MATLAB files of version 5 ("MAT-File Level 5 Format"): a tag, flags, sizes, a name, the numbers.
+
+enum class MatClass : std::uint8_t { structure = 2, text = 4, number = 6, word = 13 };
+
+// Types of elements.
+constexpr std::uint32_t int8 = 1, int32 = 5, uint32 = 6, float64 = 9, matrix = 14, utf8 = 16;
+
+void put_tag(Bytes& out, std::uint32_t type, std::uint64_t bytes) {
+  put_little_endian(out, type);
+  put_little_endian(out, static_cast<std::uint32_t>(bytes));
+}
+
+void pad(Bytes& out) {
+  while (out.size() % 8 != 0) out.push_back(0);
+}
+
+/// Kind, sizes and name.
+Bytes description(const std::string& name, MatClass kind, std::uint64_t rows, std::uint64_t columns) {
+  Bytes out;
+  put_tag(out, uint32, 8);
+  put_little_endian(out, static_cast<std::uint64_t>(kind));
+  put_tag(out, int32, 8);
+  put_little_endian(out, static_cast<std::uint32_t>(rows));
+  put_little_endian(out, static_cast<std::uint32_t>(columns));
+  put_tag(out, int8, name.size());
+  out.insert(out.end(), name.begin(), name.end());
+  pad(out);
+  return out;
+}
+
+Bytes whole(const Bytes& content) {
+  Bytes out;
+  put_tag(out, matrix, content.size());
+  out.insert(out.end(), content.begin(), content.end());
+  return out;
+}
+
+/// All of a column vector's variable that stands before its numbers, which follow with padding to 8 bytes.
+Bytes mat_vector_head(const std::string& name, MatClass kind, std::uint64_t rows) {
+  const std::uint64_t bytes = rows * (kind == MatClass::word ? 4 : 8);
+  const Bytes about = description(name, kind, rows, 1);
+  Bytes out;
+  put_tag(out, matrix, about.size() + 8 + (bytes + 7) / 8 * 8);
+  out.insert(out.end(), about.begin(), about.end());
+  put_tag(out, kind == MatClass::word ? uint32 : float64, bytes);
+  return out;
+}
+
+/// A whole variable, or a field without a name: a matrix of letters, a line a row, filled up with blanks. ASCII.
+Bytes mat_text(const std::string& name, const std::vector<std::string>& lines) {
+  std::size_t letters = 0;
+  for (const std::string& line : lines) letters = std::max(letters, line.size());
+  Bytes out = description(name, MatClass::text, lines.size(), letters);
+  put_tag(out, utf8, lines.size() * letters);
+  for (std::size_t column = 0; column < letters; ++column) {
+    for (const std::string& line : lines)
+      out.push_back(static_cast<std::uint8_t>(column < line.size() ? line[column] : ' '));
+  }
+  pad(out);
+  return whole(out);
+}
+
+/// `fields`: names of at most 31 letters, each with a variable without a name.
+Bytes mat_structure(const std::string& name, const std::vector<std::pair<std::string, Bytes>>& fields) {
+  constexpr std::uint32_t name_bytes = 32;
+  Bytes out = description(name, MatClass::structure, 1, 1);
+  put_little_endian(out, std::uint32_t{4} << 16U | int32);  // a short element: its size and type in one word
+  put_little_endian(out, name_bytes);
+  put_tag(out, int8, fields.size() * name_bytes);
+  for (const auto& [field, content] : fields) {
+    out.insert(out.end(), field.begin(), field.end());
+    out.resize(out.size() + name_bytes - field.size());
+  }
+  for (const auto& [field, content] : fields) out.insert(out.end(), content.begin(), content.end());
+  return whole(out);
+}
 
 /// The scratch file holds strips of rows; of each strip one column after the other, 8 bytes a number.
 class MatWriter final : public TableWriter {
@@ -94,8 +175,8 @@ class MatWriter final : public TableWriter {
     text.resize(text_bytes, ' ');
     text.resize(version_at, '\0');
     Bytes out(text.begin(), text.end());
-    numerics::put_little_endian(out, std::uint16_t{0x0100});
-    numerics::put_little_endian(out, std::uint16_t{0x4D49});
+    put_little_endian(out, std::uint16_t{0x0100});
+    put_little_endian(out, std::uint16_t{0x4D49});
     return out;
   }
 
