@@ -1,6 +1,8 @@
 #include "spoolflow/validation/judged_limits.hpp"
 
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "spoolflow/units/conversion.hpp"
 
@@ -8,19 +10,12 @@ namespace spoolflow::validation {
 namespace {
 
 const GroupFigures& group_of(const Metrics& metrics, When when) {
-  switch (when) {
-    case When::moving:
-      return metrics.moving;
-    case When::rest:
-      return metrics.rest;
-    case When::reversal:
-      return metrics.reversal;
-    case When::p_to_b:
-      return metrics.p_to_b;
-    case When::p_to_a:
-      return metrics.p_to_a;
-    case When::always:
-      break;
+  static constexpr std::array groups{std::pair{When::moving, &Metrics::moving}, std::pair{When::rest, &Metrics::rest},
+                                     std::pair{When::reversal, &Metrics::reversal},
+                                     std::pair{When::p_to_b, &Metrics::p_to_b},
+                                     std::pair{When::p_to_a, &Metrics::p_to_a}};
+  for (const auto& [samples, group] : groups) {
+    if (samples == when) return metrics.*group;
   }
   return metrics.all;
 }

@@ -1,6 +1,7 @@
 #include "spoolflow/validation/status_timeline.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace spoolflow::validation {
@@ -31,60 +32,53 @@ std::vector<StatusSpan> spans_of(std::span<const double> time_s, std::span<const
   return out;
 }
 
+struct Meaning {
+  sensor::Status bit;
+  const char* text;
+};
+
+constexpr std::array meanings = [] {
+  using enum sensor::Status;
+  return std::to_array<Meaning>({
+      {closed, "The spool covers the metering edge: no flow but leakage."},
+      {spool_at_rest, "The spool rests: friction lies anywhere within its limits, and the band is as wide as that."},
+      {outside_force_map,
+       "Current or position left the magnetic-force map; answered at its edge. Calibrate over more of them."},
+      {outside_flow_force_map, "The flow force left what was measured at this position; answered at the map's edge."},
+      {outside_temperature, "The oil is colder or warmer than in the calibration's recordings."},
+      {current_saturated, "The current sits at the end of its range: the force may be larger than it shows."},
+      {dithered,
+       "The current is dithered: friction swings between its limits, and the extremes of each period bound it."},
+      {sign_undetermined, "The spool stands so near the centre that the oil may flow either way."},
+      {ambiguous_load, "More flow force than the supply explains: a load may drive the oil, and the flow be larger."},
+      {flow_reversed, "By the pressures at the ports a load drives the oil against the way that the spool opens."},
+      {open_stop,
+       "The spool stands on its open stop, which may hold what flow force does not: the flow may be smaller."},
+      {position_fault,
+       "The position signal moved as no spool can, and the last credible position was used; or it stayed closed "
+       "against forces that move any spool. Look at its wiring."},
+      {sample_missing, "An input was missing; the last flow was held, and its band opened."},
+      {time_fault,
+       "The time stood still, ran backwards (the last answer was held), or went on by 9 ms or more, for which the "
+       "sensor is not made. Look at the time stamps, and sample at 1 kHz."},
+      {other_direction,
+       "The spool opens the direction of flow of which the model knows nothing: the band is all that may flow there. "
+       "Calibrate the whole valve, or look at the sign of the position."},
+      {current_fault, "The current leapt as no coil lets it; the last credible one is used."},
+      {temperature_fault,
+       "The oil temperature read what no oil has, or leapt; the one before was held. Look at its sensor and line."},
+      {model_doubt, "Indicators of the valve's condition contradict the model; the band is wider by what they say."},
+      {coil_fault,
+       "Voltage and current give a coil resistance that no sound coil has, or one of them is far beyond the "
+       "calibration's; look for shorted turns, a bad contact, a broken amplifier or line, or a wrong unit."},
+  });
+}();
+
 }  // namespace
 
 const char* meaning(sensor::Status bit) {
-  using sensor::Status;
-  switch (bit) {
-    case Status::none:
-      break;
-    case Status::closed:
-      return "The spool covers the metering edge: no flow but leakage.";
-    case Status::spool_at_rest:
-      return "The spool rests: friction lies anywhere within its limits, and the band is as wide as that.";
-    case Status::outside_force_map:
-      return "Current or position left the magnetic-force map; answered at its edge. Calibrate over more of them.";
-    case Status::outside_flow_force_map:
-      return "The flow force left what was measured at this position; answered at the map's edge.";
-    case Status::outside_temperature:
-      return "The oil is colder or warmer than in the calibration's recordings.";
-    case Status::current_saturated:
-      return "The current sits at the end of its range: the force may be larger than it shows.";
-    case Status::dithered:
-      return "The current is dithered: friction swings between its limits, and the extremes of each period bound it.";
-    case Status::sign_undetermined:
-      return "The spool stands so near the centre that the oil may flow either way.";
-    case Status::ambiguous_load:
-      return "More flow force than the supply explains: a load may drive the oil, and the flow be larger.";
-    case Status::flow_reversed:
-      return "By the pressures at the ports a load drives the oil against the way that the spool opens.";
-    case Status::open_stop:
-      return "The spool stands on its open stop, which may hold what flow force does not: the flow may be smaller.";
-    case Status::position_fault:
-      return "The position signal moved as no spool can, and the last credible position was used; or it stayed closed "
-             "against forces that move any spool. Look at its wiring.";
-    case Status::sample_missing:
-      return "An input was missing; the last flow was held, and its band opened.";
-    case Status::time_fault:
-      return "The time stood still, ran backwards (the last answer was held), or went on by 9 ms or more, for which "
-             "the "
-             "sensor is not made. Look at the time stamps, and sample at 1 kHz.";
-    case Status::other_direction:
-      return "The spool opens the direction of flow of which the model knows nothing: the band is all that may flow "
-             "there. "
-             "Calibrate the whole valve, or look at the sign of the position.";
-    case Status::current_fault:
-      return "The current leapt as no coil lets it; the last credible one is used.";
-    case Status::temperature_fault:
-      return "The oil temperature read what no oil has, or leapt; the one before was held. Look at its sensor and "
-             "line.";
-    case Status::model_doubt:
-      return "Indicators of the valve's condition contradict the model; the band is wider by what they say.";
-    case Status::coil_fault:
-      return "Voltage and current give a coil resistance that no sound coil has, or one of them is far beyond the "
-             "calibration's; look for shorted turns, a bad contact, a broken amplifier or line, or a wrong unit.";
-  }
-  return "";
+  const auto found = std::ranges::find(meanings, bit, &Meaning::bit);
+  return found == meanings.end() ? "" : found->text;
 }
 
 std::vector<StatusRow> status_rows(std::span<const double> time_s, std::span<const sensor::Status> status,

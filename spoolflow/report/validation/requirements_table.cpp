@@ -1,6 +1,7 @@
 #include "spoolflow/report/validation/requirements_table.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -14,47 +15,39 @@ namespace {
 
 using validation::JudgedLimit;
 
+/// Of an estimator, whose name goes into the braces.
+constexpr std::array figure_texts = [] {
+  using enum validation::Figure;
+  return std::to_array<validation::Named<validation::Figure>>({
+      {p95, "95th percentile of the {}'s error"},
+      {rms, "RMS of the {}'s error"},
+      {largest, "largest error of the {}"},
+      {bias, "size of the {}'s mean error"},
+      {band_mean_width, "mean width of the {}'s 95 % band"},
+      {band_coverage, "share of the samples inside the {}'s 95 % band"},
+      {p95_of_reading, "95th percentile of the {}'s error, of reading"},
+      {wrong_sign, "share of the samples whose flow has the other sign than the {}'s"},
+      {fault_share, "share of the samples with a fault of the {}"},
+  });
+}();
+constexpr std::array when_texts = [] {
+  using enum validation::When;
+  return std::to_array<validation::Named<validation::When>>({
+      {always, ""},
+      {moving, ", moving"},
+      {rest, ", at rest"},
+      {reversal, ", around reversal"},
+      {p_to_b, ", flow P to B"},
+      {p_to_a, ", flow P to A"},
+  });
+}();
+
 std::string figure_text(const JudgedLimit& judged) {
-  const std::string estimator(estimation::name(judged.estimator));
-  switch (judged.limit.figure) {
-    case validation::Figure::p95:
-      return fmt::format("95th percentile of the {}'s error", estimator);
-    case validation::Figure::rms:
-      return fmt::format("RMS of the {}'s error", estimator);
-    case validation::Figure::largest:
-      return fmt::format("largest error of the {}", estimator);
-    case validation::Figure::bias:
-      return fmt::format("size of the {}'s mean error", estimator);
-    case validation::Figure::band_mean_width:
-      return fmt::format("mean width of the {}'s 95 % band", estimator);
-    case validation::Figure::band_coverage:
-      return fmt::format("share of the samples inside the {}'s 95 % band", estimator);
-    case validation::Figure::p95_of_reading:
-      return fmt::format("95th percentile of the {}'s error, of reading", estimator);
-    case validation::Figure::wrong_sign:
-      return fmt::format("share of the samples whose flow has the other sign than the {}'s", estimator);
-    case validation::Figure::fault_share:
-      break;
-  }
-  return fmt::format("share of the samples with a fault of the {}", estimator);
+  return fmt::format(fmt::runtime(name_of(figure_texts, judged.limit.figure)), estimation::name(judged.estimator));
 }
 
-const char* when_text(validation::When when) {
-  switch (when) {
-    case validation::When::moving:
-      return ", moving";
-    case validation::When::rest:
-      return ", at rest";
-    case validation::When::reversal:
-      return ", around reversal";
-    case validation::When::p_to_b:
-      return ", flow P to B";
-    case validation::When::p_to_a:
-      return ", flow P to A";
-    case validation::When::always:
-      break;
-  }
-  return "";
+std::string_view when_text(validation::When when) {
+  return name_of(when_texts, when);
 }
 
 /// A flow that is written in a limit's unit.
@@ -133,7 +126,7 @@ void show_limits(HtmlPage& page, const std::vector<JudgedLimit>& limits) {
   for (const JudgedLimit& judged : limits) {
     table.row({fmt::format("<b class=\"badge {}\">{}</b>", judged.met ? "pass" : (judged.value ? "fail" : "open"),
                            judged.met ? "pass" : (judged.value ? "fail" : "not judged")),
-               html_text(figure_text(judged) + when_text(judged.limit.when)), html_text(judged.run),
+               html_text(fmt::format("{}{}", figure_text(judged), when_text(judged.limit.when))), html_text(judged.run),
                bounds_text(judged.limit), judged.value ? value_text(judged) : "\u2013"});
   }
   page.table(table);
