@@ -14,6 +14,7 @@ part() { echo "== $((($(date +%s) - begin) / 60)) min: $1"; }
 ci/build_tests.sh
 ci/packages.sh long
 ci/build.sh release benchmarks
+ci/build.sh release rig_findings
 ci/build.sh sanitize all -DSPOOLFLOW_SANITIZE_ALL=ON
 part "clang-tidy, and tests under sanitizers that read nothing foreign"
 ctest --test-dir build/release -L long -j "$(nproc)" --output-on-failure || status=1

@@ -84,11 +84,15 @@ Replay replay(const model::Model& model, Estimator estimator, const fs::path& re
   out.stack_bytes = figures.at("stack_bytes");
   out.worst_stack_bytes = worst_stack_bytes(workshop.run("cat replay.elf-replay.ci"), "one_step");
   out.flash_bytes = flash_bytes(workshop, core, which_sensor(estimator));
+  return out;
+}
+
+int self_test_status(const model::Model& model, const Core& core) {
+  Workshop workshop(model);
   workshop.run(compiler(core) + SPOOLFLOW_FIRMWARE "/board.cpp self_test.cpp -o self_test.elf" + link() +
                core.libraries);
   workshop.run(emulator(core, "self_test.elf"), 3);
-  out.self_test_status = static_cast<std::uint32_t>(workshop.status());
-  return out;
+  return workshop.status();
 }
 
 }  // namespace spoolflow::cortex_m

@@ -52,8 +52,7 @@ struct Replay {
   std::optional<std::uint32_t> longest_way;  ///< by the graph of the step's code; with a floating-point unit alone
   std::uint32_t stack_bytes;                 ///< of the first step, measured
   std::uint32_t worst_stack_bytes;           ///< of any step with all that it may call, by the compiler's frames
-  std::uint32_t flash_bytes;       ///< code and tables of this sensor, linked without any library but the compiler's
-  std::uint32_t self_test_status;  ///< of the exported self-test on the core
+  std::uint32_t flash_bytes;  ///< code and tables of this sensor, linked without any library but the compiler's
 };
 
 /// The command that compiles `replay.elf`, with lines of source in it.
@@ -65,5 +64,8 @@ struct Replay {
 /// Throws std::runtime_error with what the tools said where one of them fails.
 [[nodiscard]] Replay replay(const model::Model& model, estimation::Estimator estimator,
                             const std::filesystem::path& recording, const Core& core);
+
+/// What the exported self-test, which steps every sensor of the model, ends with on the core. Throws as replay does.
+[[nodiscard]] int self_test_status(const model::Model& model, const Core& core);
 
 }  // namespace spoolflow::cortex_m

@@ -31,7 +31,6 @@ void expect_fit_for_a_valve(const Replay& replay, const Limits& limits) {
   EXPECT_EQ(replay.not_a_number, 0U);
   EXPECT_FALSE(replay.made_nan);
   EXPECT_FALSE(replay.met_denormal);
-  EXPECT_EQ(replay.self_test_status, 0U);
   EXPECT_LE(replay.all.largest, limits.instructions);
   EXPECT_LE(replay.longest_way.value_or(0), limits.longest_way);  // which no input exceeds
   if (replay.longest_way) {
@@ -99,6 +98,11 @@ TEST_P(CortexM, CondensedSensorOfAWholeValveAnswersAsTheHost) {
   expect_documented(GetParam(), "condensed, whole valve", valve);
 }
 
+TEST_P(CortexM, SelfTestOfAnExportFindsItSound) {
+  EXPECT_EQ(self_test_status(model, GetParam()), 0);
+  EXPECT_EQ(self_test_status(on_both_sides(model), GetParam()), 0);
+}
+
 class SoftFloat : public CortexM {};
 
 /// Minutes; run by the long tests. There is no unit that would report a NaN it made.
@@ -110,6 +114,7 @@ TEST_P(SoftFloat, DISABLED_BothSensorsAnswerAsTheHostWithoutAFloatingPointUnit) 
   const Replay condensed = replay(model, Estimator::condensed, minute, GetParam());
   expect_fit_for_a_valve(condensed, {m0plus ? 5500U : 3100U, 4, 0, 120, 98304});
   expect_documented(GetParam(), "condensed", condensed);
+  EXPECT_EQ(self_test_status(model, GetParam()), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cores, SoftFloat, ::testing::ValuesIn(soft_float_cores),

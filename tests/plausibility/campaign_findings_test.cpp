@@ -163,6 +163,7 @@ TEST(CampaignFindings, NameTheAxialForceMapThatContradictsTheOthers) {
     valve.recordings[file] = valve.recordings.at("axial_force_map_50.csv");
     valve.recordings.at(file).file = file;
   }
+  valve.recordings.erase("ramp_25bar.csv");  // maps are judged by each other
   EXPECT_THAT(all_texts(campaign_findings(valve.benches())), testing::IsEmpty());
   for (const auto& [channel, of] :
        {std::pair{Channel::flow, "flow over what"}, std::pair{Channel::axial_force, "flow force over what"}}) {

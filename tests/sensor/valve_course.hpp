@@ -45,18 +45,7 @@ class Course {
   [[nodiscard]] double end_s() const { return knots_.back().time_s; }
   [[nodiscard]] const ValveInstant& last() const { return knots_.back().instant; }
 
-  ValveInstant operator()(double time_s) const {
-    std::size_t k = 1;
-    while (k + 1 < knots_.size() && time_s >= knots_[k].time_s) ++k;
-    if (knots_.size() == 1) return knots_[0].instant;
-    const auto& [from_s, from] = knots_[k - 1];
-    const auto& [to_s, to] = knots_[k];
-    if (!(to_s > from_s)) return to;
-    const double share = std::clamp((time_s - from_s) / (to_s - from_s), 0.0, 1.0);
-    const auto between = [&](double a, double b) { return a + share * (b - a); };
-    return {between(from.position_m, to.position_m), between(from.pressure_difference_Pa, to.pressure_difference_Pa),
-            between(from.friction_share, to.friction_share), between(from.oil_temperature_K, to.oil_temperature_K)};
-  }
+  ValveInstant operator()(double time_s) const;
 
  private:
   struct Knot {
