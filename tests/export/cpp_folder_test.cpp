@@ -56,10 +56,8 @@ TEST(CppFolder, StandsAloneAndAnswersAsTheHostWithoutAWarning) {
        {example_model(), without_observer(), whole_example_model(), whole_without_observer()}) {
     const ExportedFolder folder(model);
     for (const std::string& compiler : compilers()) {
-      const std::string build = compiler + strict + "self_test.cpp -o self_test && ./self_test";
-      EXPECT_EQ(folder.run(build), 0) << build;
-      const std::string example = compiler + strict + unoptimised + "example.cpp -o example && ./example";
-      EXPECT_EQ(folder.run(example), 0) << example;
+      EXPECT_EQ(folder.run(compiler + strict + "self_test.cpp -o self_test && ./self_test"), 0) << compiler;
+      EXPECT_EQ(folder.run(compiler + strict + unoptimised + "example.cpp -o example && ./example"), 0) << compiler;
     }
   }
 }
