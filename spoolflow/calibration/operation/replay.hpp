@@ -103,7 +103,8 @@ void replay(const sensor::ObserverParameters<double>& parameters, const std::vec
       const double sign = both && is_other ? -1 : 1;
       each(ReplayedSample{is_other ? *run.other : parameters, both ? state.whole_valve.open : state.observer,
                           used.time_s[k], sign * used.position_m[k], sign * reference_m3_per_s[late],
-                          sign > 0 ? shown : Shown{-shown.flow, -shown.upper, -shown.lower}, lagged.conductance()});
+                          sign > 0 ? shown : Shown{-shown.flow, -shown.upper, -shown.lower},
+                          sign * lagged.conductance()});
     });
   }
 }
