@@ -17,6 +17,13 @@ constexpr double most_percent = 0.11;      // of the rated flow: a tenth of what
 constexpr std::uint32_t painting = 32;     // bytes next to the caller that are not painted
 constexpr std::uint32_t handing_over = 3;  // instructions of main that put the step's arguments into registers
 
+/// The limits of instructions are those of the page's compiler, GCC 12; another takes up to so many times as many.
+#ifdef SPOOLFLOW_EMBEDDED_PAGE
+constexpr double of_compiler = 1;
+#else
+constexpr double of_compiler = 1.05;
+#endif
+
 struct Limits {
   std::uint32_t instructions;
   std::size_t ways;
@@ -31,8 +38,8 @@ void expect_fit_for_a_valve(const Replay& replay, const Limits& limits) {
   EXPECT_EQ(replay.not_a_number, 0U);
   EXPECT_FALSE(replay.made_nan);
   EXPECT_FALSE(replay.met_denormal);
-  EXPECT_LE(replay.all.largest, limits.instructions);
-  EXPECT_LE(replay.longest_way.value_or(0), limits.longest_way);  // which no input exceeds
+  EXPECT_LE(replay.all.largest, of_compiler * limits.instructions);
+  EXPECT_LE(replay.longest_way.value_or(0), of_compiler * limits.longest_way);  // which no input exceeds
   if (replay.longest_way) {
     EXPECT_LE(replay.all.largest, *replay.longest_way + handing_over);
   }
