@@ -76,7 +76,7 @@ void refuse_used_again(const model::Model& model, const std::vector<std::filesys
   }
 }
 
-/// The marks of a reference are times of one recording, which its name tells.
+/// The marks of a reference are times of one recording, which the reference names.
 void refuse_ambiguous(const std::vector<recording::Reference>& references,
                       const std::vector<std::filesystem::path>& files) {
   for (const recording::Reference& each : references) {

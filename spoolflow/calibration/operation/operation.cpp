@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string_view>
 
 #include "spoolflow/calibration/operation/identifiable_parameters.hpp"
@@ -104,11 +103,10 @@ OperationFit fit_operation(sensor::ObserverParameters<double>& parameters, const
   if (!rests) out.force_error_ratio = std::max(out.force_error_ratio, least_dithered_force_error_ratio);
   scale_band(parameters, out.force_error_ratio);
   parameters.friction.freeing_share = given_freeing_share;
-  const OperationOutcome outcome =
-      together(replay_stretches(parameters, runs, std::numeric_limits<double>::infinity()));
+  const OperationOutcome outcome = replay_whole(parameters, runs);
   out.flow_m3_per_s = outcome.error;
   out.samples = outcome.error.samples;
-  out.band_coverage = static_cast<double>(outcome.inside) / static_cast<double>(std::max<std::size_t>(1, out.samples));
+  out.band_coverage = outcome.coverage();
   return out;
 }
 

@@ -82,9 +82,13 @@ OperationOutcome together(const std::vector<OperationOutcome>& stretches) {
   return out;
 }
 
+OperationOutcome replay_whole(const sensor::ObserverParameters<double>& parameters,
+                              const std::vector<OperatingRun>& runs) {
+  return together(replay_stretches(parameters, runs, std::numeric_limits<double>::infinity()));
+}
+
 double operation_score(const OperationTrial& trial, double full_scale_m3_per_s) {
-  constexpr double all_s = std::numeric_limits<double>::infinity();
-  return together(replay_stretches(trial.parameters(), trial.runs(), all_s)).score(full_scale_m3_per_s);
+  return replay_whole(trial.parameters(), trial.runs()).score(full_scale_m3_per_s);
 }
 
 }  // namespace spoolflow::calibration

@@ -1,5 +1,7 @@
 #pragma once
 /// How well the observer does on operating runs, and what of it may be turned to do better.
+#include <algorithm>
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
@@ -54,6 +56,11 @@ struct OperationOutcome {
   FitResidual error;
   std::size_t inside = 0;
 
+  /// Share of the samples with the reference inside the band.
+  [[nodiscard]] double coverage() const {
+    return static_cast<double>(inside) / static_cast<double>(std::max<std::size_t>(1, error.samples));
+  }
+
   /// See operation_score.
   [[nodiscard]] double score(double full_scale_m3_per_s) const;
 };
@@ -65,6 +72,9 @@ inline constexpr double weight_of_error = 4;
 [[nodiscard]] std::vector<OperationOutcome> replay_stretches(const sensor::ObserverParameters<double>& parameters,
                                                              const std::vector<OperatingRun>& runs, double stretch_s);
 [[nodiscard]] OperationOutcome together(const std::vector<OperationOutcome>& stretches);
+/// Of all recordings, in one piece each.
+[[nodiscard]] OperationOutcome replay_whole(const sensor::ObserverParameters<double>& parameters,
+                                            const std::vector<OperatingRun>& runs);
 
 /// Mean interval score of the 95 % band (Winkler 1972; Gneiting and Raftery 2007, eq. 43: its width, and 40 times
 /// what the reference lies outside) plus four times the RMS error, as a share of full scale. Small where the estimate

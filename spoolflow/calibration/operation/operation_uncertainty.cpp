@@ -73,11 +73,7 @@ double covering_ratio(sensor::ObserverParameters<double> parameters, const std::
   while (most > resolution * least) {
     const double middle = std::sqrt(least * most);
     scale_band(parameters, middle);
-    const OperationOutcome outcome =
-        together(replay_stretches(parameters, runs, std::numeric_limits<double>::infinity()));
-    const bool holds =
-        static_cast<double>(outcome.inside) >= needed_coverage * static_cast<double>(outcome.error.samples);
-    (holds ? most : least) = middle;
+    (replay_whole(parameters, runs).coverage() >= needed_coverage ? most : least) = middle;
   }
   return most;
 }

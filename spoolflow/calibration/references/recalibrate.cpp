@@ -29,8 +29,8 @@ void require_their_recordings(const std::vector<recording::Recording>& recording
   }
 }
 
-/// Oil that fills one cylinder fills no other, nor comes from another pump: a mark that overlaps another of its kind is
-/// the same oil told twice, and counts once.
+/// Oil that fills one cylinder fills no other, nor comes from another pump: a mark that overlaps another of its kind
+/// states the same oil again, which counts once.
 void require_counted_once(const std::vector<recording::Reference>& references) {
   for (std::size_t r = 0; r < references.size(); ++r) {
     for (std::size_t s = 0; s < r; ++s) {
