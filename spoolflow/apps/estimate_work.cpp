@@ -11,6 +11,7 @@
 #include "spoolflow/apps/work/estimate_table.hpp"
 #include "spoolflow/calibration/environment.hpp"
 #include "spoolflow/estimation/recordings/sensor_channels.hpp"
+#include "spoolflow/monitor/contradiction.hpp"
 #include "spoolflow/recording/open_table.hpp"
 #include "spoolflow/recording/written_tables/table_writers.hpp"
 
@@ -26,11 +27,17 @@ struct ReadBlock {
 
 /// What became of them.
 struct EstimatedBlock {
-  std::vector<double> time_s;
+  recording::SampleBlock samples;
   std::vector<sensor::Estimate<double>> estimates;
   recording::ReadNotes notes;
   std::optional<double> share;
 };
+
+void take(monitor::Monitor& watch, const recording::SampleBlock& samples,
+          const std::vector<sensor::Estimate<double>>& answers) {
+  const estimation::Columns columns = estimation::sensor_columns(samples);
+  for (std::size_t k = 0; k < answers.size(); ++k) watch.take(columns[k], answers[k]);
+}
 
 }  // namespace
 
@@ -74,6 +81,8 @@ validation::EstimateSummary estimate_recording(const EstimateTask& task, const s
   const recording::TableFormat format = format_for(task, target);
   validation::EstimateSummary summary{.file = runs_on ? "standard input" : recording};
   plausibility::RunMeans means;
+  std::optional<monitor::Monitor> watch;
+  if (task.estimator == estimation::Estimator::observer) watch.emplace(task.model);
   {
     Progress progress("estimating", task.quiet);
     const auto writer = recording::table_writer(format, std::move(head), output);
@@ -92,7 +101,7 @@ validation::EstimateSummary estimate_recording(const EstimateTask& task, const s
           if (read == nullptr) return false;
           block.estimates.resize(read->samples.rows);
           estimation::run(sensor, estimation::sensor_columns(read->samples), block.estimates);
-          std::swap(block.time_s, read->samples.columns[static_cast<std::size_t>(recording::Channel::time)]);
+          std::swap(block.samples, read->samples);
           block.notes = read->notes;
           block.share = read->share;
           return true;
@@ -100,9 +109,10 @@ validation::EstimateSummary estimate_recording(const EstimateTask& task, const s
         beside);
     recording::TableRows rows;
     while (const EstimatedBlock* block = estimating.next()) {
-      put_estimates(rows, block->time_s, block->estimates);
+      put_estimates(rows, block->samples.column(recording::Channel::time), block->estimates);
       writer->write(rows);
       summary.add(block->estimates);
+      if (watch) take(*watch, block->samples, block->estimates);
       if (runs_on) writer->hand_over();  // whoever reads waits for these rows
       summary.notes = block->notes;
       progress.update(block->share, block->notes.rows);
@@ -112,6 +122,7 @@ validation::EstimateSummary estimate_recording(const EstimateTask& task, const s
   output.commit();
   for (plausibility::Finding& finding : plausibility::run_findings(task.known, means, recording))
     summary.doubts.push_back(std::move(finding.text));
+  if (watch) monitor::add_contradiction(*watch, summary.file, summary.doubts);
   return summary;
 }
 

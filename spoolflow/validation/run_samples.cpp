@@ -1,6 +1,7 @@
 #include "spoolflow/validation/run_samples.hpp"
 
 #include "spoolflow/estimation/recordings/sensor_channels.hpp"
+#include "spoolflow/monitor/contradiction.hpp"
 #include "spoolflow/numerics/meter_lag.hpp"
 #include "spoolflow/numerics/meter_lag_uncertainty.hpp"
 
@@ -64,17 +65,22 @@ RunSamples estimate_run(const model::Model& model, const std::filesystem::path& 
   const Channel reference = reader->has(Channel::flow_reference) ? Channel::flow_reference : Channel::flow;
   RunSamples run;
   std::vector<estimation::RunningSensor> sensors;
+  std::optional<monitor::Monitor> watch;
   for (const estimation::Estimator estimator : estimators) {
     sensors.push_back(estimation::running_sensor(model, estimator));
     run.answers.emplace_back().estimator = estimator;
+    if (estimator == estimation::Estimator::observer) watch.emplace(model);
   }
   recording::SampleBlock block;
   std::vector<sensor::Estimate<double>> estimates;
   while (reader->next(block)) {
+    const estimation::Columns columns = estimation::sensor_columns(block);
     estimates.resize(block.rows);
     for (std::size_t s = 0; s < sensors.size(); ++s) {
-      estimation::run(sensors[s], estimation::sensor_columns(block), estimates);
+      estimation::run(sensors[s], columns, estimates);
       append(run.answers[s], estimates);
+      if (estimators[s] != estimation::Estimator::observer) continue;
+      for (std::size_t k = 0; k < block.rows; ++k) watch->take(columns[k], estimates[k]);
     }
     run.means.take(block);
     append(run.time_s, block, Channel::time);
@@ -88,6 +94,7 @@ RunSamples estimate_run(const model::Model& model, const std::filesystem::path& 
     progress(reader->progress().value_or(0));
   }
   run.notes = reader->notes();
+  if (watch) monitor::add_contradiction(*watch, recording.string(), run.contradictions);
   return run;
 }
 

@@ -30,7 +30,8 @@ struct RunSamples {
   std::vector<float> reference_m3_per_s, pressure_difference_Pa;  ///< instruments; no sensor reads them
   std::vector<Answers> answers;                                   ///< in the order of the estimators
   recording::ReadNotes notes;
-  plausibility::RunMeans means;  ///< of all channels that were read
+  plausibility::RunMeans means;             ///< of all channels that were read
+  std::vector<std::string> contradictions;  ///< of the observer's forces to the model, at most one
 };
 
 /// Runs the estimators over a recording. The reference is the channel flow_reference, else flow; the pressure

@@ -94,6 +94,7 @@ class RunJudge {
     judged.result.calibrated_with = named.calibrated_with;
     add_findings(judged.result, std::span(names_).first(k),
                  plausibility::run_findings(known_, samples.means, recording));
+    std::ranges::move(samples.contradictions, std::back_inserter(judged.result.doubts));
     if (!named.calibrated_with || !out_.held_out) pool(judged);
     out_.runs[k] = std::move(judged.result);
   }

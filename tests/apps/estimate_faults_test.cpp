@@ -91,6 +91,22 @@ TEST_F(EstimateFaults, AClockThatRunsTooFastIsReportedByTheInducedVoltage) {
   EXPECT_THAT(said_with("1"), Not(HasSubstr("time runs")));
 }
 
+// Where the edge is closed nothing flows, and the forces must be those of the calibrated springs and coil.
+TEST_F(EstimateFaults, ACurrentThatReadsFivePercentTooHighContradictsTheModel) {
+  const auto said_by = [&](const std::string& command, const std::string& scale) {
+    write("map.toml", "[channels]\ncurrent = { column = \"current_A\", unit = \"A\", scale = " + scale + " }\n");
+    return run(command +
+               " -q " SPOOLFLOW_EXAMPLE_MODEL " " SPOOLFLOW_EXAMPLES "/valve_a/ramp_60bar.h5 --channels map.toml " +
+               (command == "estimate" ? "-o /dev/null" : "--json out.json"));
+  };
+  EXPECT_THAT(said_by("estimate", "1.05").message, HasSubstr("ramp_60bar.h5: the forces contradict the model"));
+  EXPECT_THAT(said_by("estimate", "1.05").message, HasSubstr("a current that reads too high"));
+  EXPECT_THAT(said_by("estimate", "0.95").message, HasSubstr("a current that reads too low"));
+  EXPECT_THAT(said_by("estimate", "1").message, Not(HasSubstr("contradict")));
+  EXPECT_EQ(said_by("validate", "1.05").status, 0);
+  EXPECT_THAT(content("out.json"), HasSubstr("the forces contradict the model"));
+}
+
 TEST_F(EstimateFaults, AVoltageOfSeveralSuppliesIsReported) {
   const std::vector<Row> sound = estimate([](double current_A) { return std::pair(current_A, 2.9 * current_A); });
   const std::vector<Row> rows = estimate([](double current_A) { return std::pair(current_A, 200.0); });

@@ -11,6 +11,8 @@
 #include "addons/python/module/columns.hpp"
 #include "addons/python/module/models.hpp"
 #include "addons/python/module/signal_check.hpp"
+#include "spoolflow/estimation/estimator.hpp"
+#include "spoolflow/monitor/contradiction.hpp"
 #include "spoolflow/plausibility/run_findings.hpp"
 #include "spoolflow/recording/plausibility.hpp"
 
@@ -48,15 +50,25 @@ std::vector<std::string> doubts_about(const SharedModel& model, const py::dict& 
   return at_work([&](SignalCheck& check) {
     constexpr std::size_t at_once = 4096;
     plausibility::RunMeans means;
+    estimation::RunningSensor sensor =
+        estimation::running_sensor(model->model, estimation::best_estimator(model->model));
+    std::optional<monitor::Monitor> watch;
+    if (model->model.has_observer()) watch.emplace(model->model);
     const std::size_t size = given.columns().size();
     for (std::size_t from = 0; from < size; from += at_once) {
       check();
-      means.take(block_of(given.columns(), from, std::min(at_once, size - from)));
+      const std::size_t count = std::min(at_once, size - from);
+      means.take(block_of(given.columns(), from, count));
+      for (std::size_t k = from; watch && k < from + count; ++k) {
+        const estimation::TimedSample sample = given.columns()[k];
+        watch->take(sample, sensor.step(sample));
+      }
     }
     std::vector<std::string> out;
     for (plausibility::Finding& finding :
          plausibility::run_findings(plausibility::known_valve(model->model), means, file))
       out.push_back(std::move(finding.text));
+    if (watch) monitor::add_contradiction(*watch, file.string(), out);
     return out;
   });
 }

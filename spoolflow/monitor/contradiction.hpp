@@ -1,0 +1,19 @@
+#pragma once
+/// What the forces of one recording say against the model, in words: another unit, a current that reads wrong, a spring
+/// that lost force. Sensor and monitor see the same forces; only where the edge is closed no flow explains them.
+#include <string>
+#include <vector>
+
+#include "spoolflow/monitor/monitor.hpp"
+
+namespace spoolflow::monitor {
+
+/// Odds, to one, from which a recording contradicts its model. Sound recordings of valves beside their own models have
+/// 37 at most, a current that reads 5 % off has 2000 and more.
+inline constexpr double contradiction_odds = 1000;
+
+/// Judges what was gathered, and adds one sentence that begins with the name of `file`, or none. Friction contradicts
+/// no model: the sensor follows it. Recordings without strokes from and to the closed end show nothing.
+void add_contradiction(Monitor& watch, const std::string& file, std::vector<std::string>& doubts);
+
+}  // namespace spoolflow::monitor
