@@ -16,6 +16,8 @@
 #include "spoolflow/calibration/observer.hpp"
 #include "spoolflow/calibration/operation/operation_uncertainty.hpp"
 #include "spoolflow/calibration/unpressurised_strokes.hpp"
+#include "spoolflow/estimation/estimator.hpp"
+#include "spoolflow/monitor/contradiction.hpp"
 #include "spoolflow/plausibility/campaign_findings.hpp"
 #include "spoolflow/plausibility/channel_findings.hpp"
 #include "spoolflow/plausibility/run_findings.hpp"
@@ -175,6 +177,24 @@ std::vector<std::string> flow_bench_contradictions(const ReadCampaign& recording
   return out;
 }
 
+/// What the forces of runs say against the benches, by the model that these make.
+std::vector<std::string> contradictions_in_operation(const model::Model& model, const Recordings& runs) {
+  std::vector<std::string> out;
+  for (const recording::Recording* run : runs) {
+    estimation::RunningSensor sensor = estimation::running_sensor(model, estimation::Estimator::observer);
+    monitor::Monitor watch(model);
+    const estimation::Columns columns = operating_columns(*run);
+    for (std::size_t k = 0; k < columns.size(); ++k) watch.take(columns[k], sensor.step(columns[k]));
+    const std::string found = monitor::contradiction(watch);
+    if (found.empty()) continue;
+    out.push_back(fmt::format(
+        "{}: forces in operation contradict the benches; beside them {}; or a load cell on a bench that reads wrong: "
+        "check scale and zero of load cells and ammeters, and that all recordings are of one valve",
+        run->file.filename().string(), found));
+  }
+  return out;
+}
+
 InOperation in_operation(const model::Valve& valve, const CampaignRecordings& recordings) {
   const EquivalentBenches* flow_bench = recordings.flow_bench;
   const double least_ratio =
@@ -281,6 +301,8 @@ model::Model calibrate(const recording::Campaign& campaign, const std::string& t
   for (const std::string& each : recordings.directions())
     std::ranges::move(known_quantities(recordings.of(each), model::of_direction(out, each)),
                       std::back_inserter(out.provenance.quantities));
+  const Recordings runs = whole ? recordings.through_centre() : recordings.of(direction).operation;
+  std::ranges::move(contradictions_in_operation(out, runs), std::back_inserter(out.provenance.doubts));
   progress("done", 1.0);
   return out;
 }

@@ -42,21 +42,28 @@ std::string looks_like(const DirectionFindings& side, Fault fault) {
 
 }  // namespace
 
-void add_contradiction(Monitor& watch, const std::string& file, std::vector<std::string>& doubts) {
+std::string contradiction(Monitor& watch) {
   watch.finish();
   const std::vector<Cause> causes = watch.causes();
   const auto likeliest =
       std::ranges::find_if(causes, [](const Cause& cause) { return cause.fault != Fault::friction; });
-  if (likeliest == causes.end() || likeliest->odds < contradiction_odds) return;
+  if (likeliest == causes.end() || likeliest->odds < contradiction_odds) return {};
   const auto fault = static_cast<std::size_t>(likeliest->fault);
   for (const DirectionFindings& side : watch.findings().side) {
-    if (!side.raised || (fault < isolated_faults && !side.likeliest[fault])) continue;
-    doubts.push_back(fmt::format(
-        "{}: the forces contradict the model (odds {:.0f} to 1), so that flow and band are wrong: {}; see `spoolflow "
-        "monitor`, then mend the channel, or calibrate this unit",
-        std::filesystem::path(file).filename().string(), likeliest->odds, looks_like(side, likeliest->fault)));
-    return;
+    if (side.raised && (fault >= isolated_faults || side.likeliest[fault]))
+      return fmt::format("{} (odds {:.0f} to 1)", looks_like(side, likeliest->fault), likeliest->odds);
   }
+  return {};
+}
+
+void add_contradiction(Monitor& watch, const std::string& file, std::vector<std::string>& doubts) {
+  const std::string found = contradiction(watch);
+  if (found.empty()) return;
+  doubts.push_back(
+      fmt::format("{}: the forces contradict the model, so that flow and band are wrong: {}; see `spoolflow monitor`, "
+                  "then mend the "
+                  "channel, or calibrate this unit",
+                  std::filesystem::path(file).filename().string(), found));
 }
 
 }  // namespace spoolflow::monitor

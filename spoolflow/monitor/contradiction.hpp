@@ -12,8 +12,12 @@ namespace spoolflow::monitor {
 /// 37 at most, a current that reads 5 % off has 2000 and more.
 inline constexpr double contradiction_odds = 1000;
 
-/// Judges what was gathered, and adds one sentence that begins with the name of `file`, or none. Friction contradicts
-/// no model: the sensor follows it. Recordings without strokes from and to the closed end show nothing.
+/// Judges what was gathered: what the forces look like beside the model's, with its odds and likely causes; empty where
+/// they do not contradict it. Friction contradicts no model: the sensor follows it. Recordings without strokes from and
+/// to the closed end show nothing.
+[[nodiscard]] std::string contradiction(Monitor& watch);
+
+/// Adds it as a sentence about the answers to the recording `file`.
 void add_contradiction(Monitor& watch, const std::string& file, std::vector<std::string>& doubts);
 
 }  // namespace spoolflow::monitor

@@ -107,6 +107,21 @@ TEST_F(EstimateFaults, ACurrentThatReadsFivePercentTooHighContradictsTheModel) {
   EXPECT_THAT(content("out.json"), HasSubstr("the forces contradict the model"));
 }
 
+TEST_F(EstimateFaults, BenchesWhoseLoadCellReadsTwoNewtonTooMuchContradictTheirOperatingRun) {
+  std::filesystem::copy(SPOOLFLOW_EXAMPLES "/valve_a", folder / "valve_a");
+  std::string campaign = content("valve_a/campaign.toml");
+  const std::string map = "file = \"solenoid_map.h5\"";
+  ASSERT_THAT(campaign, HasSubstr(map));
+  campaign.replace(campaign.find(map), map.size(),
+                   map + "\n[recording.channels]\nforce = { column = \"force_N\", unit = \"N\", offset = 2 }");
+  write("valve_a/campaign.toml", campaign);
+  const Answer answer = run("calibrate -q valve_a/campaign.toml -o model.json");
+  EXPECT_EQ(answer.status, 0) << answer.message;
+  EXPECT_THAT(answer.message, HasSubstr("ramp_60bar.h5: forces in operation contradict the benches; beside them the "
+                                        "coil pulls as with"));
+  EXPECT_THAT(content("model.json"), HasSubstr("contradict the benches"));
+}
+
 TEST_F(EstimateFaults, AVoltageOfSeveralSuppliesIsReported) {
   const std::vector<Row> sound = estimate([](double current_A) { return std::pair(current_A, 2.9 * current_A); });
   const std::vector<Row> rows = estimate([](double current_A) { return std::pair(current_A, 200.0); });
