@@ -20,6 +20,7 @@
 #include "spoolflow/monitor/contradiction.hpp"
 #include "spoolflow/plausibility/campaign_findings.hpp"
 #include "spoolflow/plausibility/channel_findings.hpp"
+#include "spoolflow/plausibility/motion_delay.hpp"
 #include "spoolflow/plausibility/run_findings.hpp"
 #include "spoolflow/plausibility/zero_findings.hpp"
 
@@ -177,10 +178,14 @@ std::vector<std::string> flow_bench_contradictions(const ReadCampaign& recording
   return out;
 }
 
-/// What the forces of runs say against the benches, by the model that these make.
+/// What coil and forces of runs say against the benches, by the model that these make.
 std::vector<std::string> contradictions_in_operation(const model::Model& model, const Recordings& runs) {
   std::vector<std::string> out;
+  const plausibility::KnownCoil coil = plausibility::known_valve(model).front().coil;
   for (const recording::Recording* run : runs) {
+    const std::string name = run->file.filename().string();
+    const std::string late = plausibility::induced_delay(coil, plausibility::RunMeans(*run), model.valve.stroke_m);
+    if (!late.empty()) out.push_back(fmt::format("{}: {}", name, late));
     estimation::RunningSensor sensor = estimation::running_sensor(model, estimation::Estimator::observer);
     monitor::Monitor watch(model);
     const estimation::Columns columns = operating_columns(*run);
@@ -190,7 +195,7 @@ std::vector<std::string> contradictions_in_operation(const model::Model& model, 
     out.push_back(fmt::format(
         "{}: forces in operation contradict the benches; beside them {}; or a load cell on a bench that reads wrong: "
         "check scale and zero of load cells and ammeters, and that all recordings are of one valve",
-        run->file.filename().string(), found));
+        name, found));
   }
   return out;
 }

@@ -78,7 +78,7 @@ class Trial {
   [[nodiscard]] KnownValve known() const {
     return {.hydraulics = hydraulics_,
             .magnetics = magnetics_,
-            .resistance_Ohm = 0,
+            .coil = {},
             .opening = OpeningCurve(all(Role::axial_map), stroke_m_)};
   }
   [[nodiscard]] double stroke_m() const { return stroke_m_; }

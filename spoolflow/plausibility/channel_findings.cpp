@@ -84,9 +84,9 @@ std::vector<Finding> channel_findings(const std::vector<const Recording*>& campa
     grid.take(recording->columns);
     add(*recording, false, grid.resampled());
     add(*recording, false, grid.coarse_current());
-    MotionDelay delay;
-    delay.take(recording->columns);
-    if (const auto late_s = delay.late_s()) add(*recording, true, shown_delay(*late_s));
+    MotionTrace motion;
+    motion.take(recording->columns);
+    if (const auto late_s = motion_delay_s(motion)) add(*recording, true, shown_delay(*late_s));
   }
   add_repeated(out, campaign);
   return out;

@@ -58,7 +58,7 @@ KnownValve direction_of(const model::Evidence& evidence, double stroke_m) {
   constexpr double any_density_kg_per_m3 = 870;  // the jet's momentum is not asked for
   return {.hydraulics = fit_hydraulics(nullptr, {&axial_strokes}, stroke_m, any_density_kg_per_m3),
           .magnetics = fit_magnetics(magnetic.done(), stroke_m),
-          .resistance_Ohm = 0,
+          .coil = {},
           .opening = OpeningCurve({&axial_strokes}, stroke_m)};
 }
 
@@ -68,13 +68,13 @@ std::vector<KnownValve> known_valve(const model::Model& model) {
   std::vector<KnownValve> out{direction_of(model.evidence, model.valve.stroke_m)};
   const auto add_observed = [&](const std::optional<model::Observer>& observer) {
     if (!observer) return;
-    out.back().resistance_Ohm = observer->parameters.actuator.coil_resistance.resistance_Ohm;
+    out.back().coil.resistance_Ohm = observer->parameters.actuator.coil_resistance.resistance_Ohm;
     out.back().position_noise_m = observer->parameters.position_sensor.noise_m;
     out.back().oil_temperature_K = observer->oil_temperature_K;
     out.back().closed_below_m = observer->parameters.closed_below_m;
     if (model.whole()) return;
-    out.back().flux_Wb = [map = observer->parameters.actuator.coil.flux_linkage.map](
-                             double current_A, double position_m) { return map.at(current_A, position_m).value; };
+    out.back().coil.flux_Wb = [map = observer->parameters.actuator.coil.flux_linkage.map](
+                                  double current_A, double position_m) { return map.at(current_A, position_m).value; };
   };
   add_observed(model.observer);
   if (model.whole()) {
@@ -95,7 +95,7 @@ KnownValve known_valve(const Benches& benches) {
   const double resistance_Ohm = coil_resistance(force_map);
   return {.hydraulics = fit_hydraulics(&spring, of, benches.stroke_m, benches.density_kg_per_m3),
           .magnetics = fit_magnetics(force_map, benches.stroke_m),
-          .resistance_Ohm = std::isfinite(resistance_Ohm) ? resistance_Ohm : 0,
+          .coil = {std::isfinite(resistance_Ohm) ? resistance_Ohm : 0},
           .opening = OpeningCurve(of, benches.stroke_m)};
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 /// The valve that a run is held against, as its model or its benches know it.
-#include <functional>
 #include <vector>
 
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/plausibility/benches.hpp"
 #include "spoolflow/plausibility/position_zero.hpp"
+#include "spoolflow/plausibility/signals/known_coil.hpp"
 #include "spoolflow/plausibility/valve_curves.hpp"
 
 namespace spoolflow::plausibility {
@@ -14,12 +14,11 @@ namespace spoolflow::plausibility {
 struct KnownValve {
   HydraulicCurves hydraulics;
   MagneticCurves magnetics;
-  double resistance_Ohm;                 ///< of the coil as calibrated; 0: not known
+  KnownCoil coil;                        ///< its flux linkage is known of a model of one direction
   double position_noise_m = 0;           ///< of a sample, as calibrated; 0: not known
   model::Range oil_temperature_K{0, 0};  ///< as calibrated; 0: not known
   OpeningCurve opening{};                ///< empty: not known
   double closed_below_m = 0;             ///< the spool covers the edge there; 0: not known
-  std::function<double(double current_A, double position_m)> flux_Wb{};  ///< of a model of one direction; else empty
 };
 
 /// The model's directions: "b", or "a" of a model of that alone, and then "a" of a whole valve.

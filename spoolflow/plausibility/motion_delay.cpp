@@ -6,22 +6,22 @@
 #include <iterator>
 #include <span>
 #include <string_view>
-#include <utility>
 
 #include <Eigen/Core>
 #include <fmt/format.h>
 
 #include "spoolflow/numerics/median.hpp"
 #include "spoolflow/plausibility/limits.hpp"
+#include "spoolflow/plausibility/signals/induced_delay.hpp"
+#include "spoolflow/plausibility/steady_lines.hpp"
 
 namespace spoolflow::plausibility {
 
-using recording::Channel;
-
 namespace {
 
-constexpr double block_s = 0.01;
-constexpr std::size_t most_followed_blocks = 30'000, piece_blocks = 1000, most_shift_blocks = 500, change_blocks = 3;
+constexpr std::size_t blocks_at_once = 5;
+constexpr double block_s = blocks_at_once * MotionTrace::block_s;
+constexpr std::size_t piece_blocks = 1000, most_shift_blocks = 500, change_blocks = 3;
 /// Of the power that the position has where it moves most: shifts at which it hardly moves say nothing.
 constexpr double least_power_share = 0.05;
 constexpr double as_well_share = 0.7;  // of the best correlation
@@ -67,42 +67,9 @@ std::optional<double> clear_shift_s(std::span<const double> current, std::span<c
 
 }  // namespace
 
-void MotionDelay::add(double time_s, double position_m, double current_A) {
-  if (!std::isfinite(time_s) || !std::isfinite(position_m + current_A)) return;
-  if (!std::exchange(begun_, true)) begin_s_ = time_s;
-  const double place = (time_s - begin_s_) / block_s;
-  if (!(place >= 0) || place >= static_cast<double>(most_followed_blocks)) return;
-  const auto block = static_cast<std::size_t>(place);
-  if (block + 1 < position_m_.size()) return;  // times that run backwards
-  if (block >= position_m_.size()) {
-    for (std::vector<double>* sums : {&position_m_, &current_A_}) {
-      if (!sums->empty()) sums->back() /= samples_;
-      sums->resize(block + 1, std::nan(""));
-      sums->back() = 0;
-    }
-    samples_ = 0;
-  }
-  position_m_.back() += position_m;
-  current_A_.back() += current_A;
-  ++samples_;
-}
-
-void MotionDelay::take(const std::array<std::vector<double>, recording::channel_count>& columns) {
-  const auto column = [&](Channel channel) -> const std::vector<double>& {
-    return columns[static_cast<std::size_t>(channel)];
-  };
-  const std::vector<double>&time_s = column(Channel::time), &position_m = column(Channel::position);
-  const std::vector<double>& other_A = column(Channel::current_a);
-  const bool both = !column(Channel::current_b).empty() && !other_A.empty();
-  const std::vector<double>& current_A = column(both ? Channel::current_b : Channel::current);
-  if (position_m.size() != time_s.size() || current_A.size() != time_s.size()) return;
-  for (std::size_t k = 0; k < time_s.size(); ++k) add(time_s[k], position_m[k], current_A[k] - (both ? other_A[k] : 0));
-}
-
-std::optional<double> MotionDelay::late_s() const {
-  if (position_m_.empty()) return std::nullopt;
-  const std::vector<double> current = changes(current_A_);
-  std::vector<double> reach = changes(position_m_);
+std::optional<double> motion_delay_s(const MotionTrace& run) {
+  const std::vector<double> current = changes(run.current_A(blocks_at_once));
+  std::vector<double> reach = changes(run.position_m(blocks_at_once));
   reach.insert(reach.begin(), most_shift_blocks, 0.0);
   reach.insert(reach.end(), most_shift_blocks, 0.0);
   std::vector<double> late_s;
@@ -119,12 +86,26 @@ std::optional<double> MotionDelay::late_s() const {
   return middle_s;
 }
 
-std::string shown_delay(double late_s) {
+namespace {
+
+std::string late_against(double late_s, std::string_view why, int decimals) {
   const std::string_view moved = late_s > 0 ? "position" : "current", by = late_s > 0 ? "current" : "position";
   return fmt::format(
-      "{} comes {:.2f} s late against {}, and a spool follows its solenoid within {:.2g} s: two clocks or recorders, "
-      "or a filter in one channel; shift its times by {:+.2f} s, or record both with one clock",
-      moved, std::abs(late_s), by, latest_motion_s, -std::abs(late_s));
+      "{} comes {:.{}f} s late against {}, {}: two clocks or recorders, or a filter in one channel; shift its times by "
+      "{:+.{}f} s, or record both with one clock",
+      moved, std::abs(late_s), decimals, by, why, -std::abs(late_s), decimals);
+}
+
+}  // namespace
+
+std::string shown_delay(double late_s) {
+  return late_against(late_s, fmt::format("and a spool follows its solenoid within {:.2g} s", latest_motion_s), 2);
+}
+
+std::string induced_delay(const KnownCoil& coil, const RunMeans& run, double stroke_m) {
+  if (!free_of_dither(run.steady_lines())) return {};
+  const auto late_s = induced_delay_s(run.motion(), coil, stroke_m);
+  return late_s ? late_against(*late_s, "by the voltage that the spool's motion induces in the coil", 3) : "";
 }
 
 }  // namespace spoolflow::plausibility

@@ -14,6 +14,7 @@
 #include "spoolflow/plausibility/block_means.hpp"
 #include "spoolflow/plausibility/coil_currents.hpp"
 #include "spoolflow/plausibility/frozen_channel.hpp"
+#include "spoolflow/plausibility/motion_delay.hpp"
 #include "spoolflow/plausibility/oil_temperature.hpp"
 #include "spoolflow/plausibility/recording_error.hpp"
 #include "spoolflow/plausibility/reference_shift.hpp"
@@ -69,7 +70,7 @@ class RunTrial {
     if (!both_) {
       add_run_deviations(out, valve_.front().hydraulics, valve_.front().magnetics, run);
       const Recording slow = longer_blocks(run);
-      add_resistance_deviation(out, {&slow}, valve_.front().resistance_Ohm);
+      add_resistance_deviation(out, {&slow}, valve_.front().coil.resistance_Ohm);
       return out;
     }
     for (const int side : {1, -1}) {
@@ -78,7 +79,7 @@ class RunTrial {
       if (part.size() < 2) continue;
       std::vector<Deviation> found;
       const Recording slow = longer_blocks(part);
-      add_resistance_deviation(found, {&slow}, known.resistance_Ohm);
+      add_resistance_deviation(found, {&slow}, known.coil.resistance_Ohm);
       add_run_deviations(found, known.hydraulics, known.magnetics, part);
       std::erase_if(found, [](const Deviation& deviation) { return deviation.of == "travel"; });
       for (Deviation& deviation : found) {
@@ -281,7 +282,7 @@ std::vector<Finding> signal_findings(const Recording& means, const RunMeans& run
     for (const std::string& zero : currents_without_voltage(means)) add(false, zero);
     add(false, run.sample_grid().coarse_current());
   }
-  if (const auto late_s = run.motion_delay().late_s()) add(true, shown_delay(*late_s));
+  if (const auto late_s = motion_delay_s(run.motion())) add(true, shown_delay(*late_s));
   return out;
 }
 
@@ -333,14 +334,16 @@ std::vector<Finding> run_findings(const std::vector<KnownValve>& valve, const Ru
   const std::string coarse = coarse_position(run.position_resolution(), valve.front().position_noise_m);
   if (!(error && error->of_position)) add(false, coarse);
   add(false, low_pass_finding(run.steady_lines(), valve.front().position_noise_m));
-  const SteadyValve known{valve.front().position_noise_m, {valve.front().resistance_Ohm, valve.back().resistance_Ohm}};
+  const SteadyValve known{valve.front().position_noise_m,
+                          {valve.front().coil.resistance_Ohm, valve.back().coil.resistance_Ohm}};
   if (!(error && error->explained && error->cannot_be)) {
     for (const std::string& line : steady_line_findings(run.steady_lines(), known)) add(false, line);
   }
   if (error) add(error->cannot_be, error->text);
-  // A wrong current, voltage or position looks like it: the clock it is where nothing else speaks against the run.
-  if (out.empty() && free_of_dither(run.steady_lines()))
-    add(true, wrong_clock(trial.run, {valve.front().resistance_Ohm, valve.front().flux_Wb}));
+  // A wrong current, voltage or position looks like both: they are asked for where nothing else speaks against the run.
+  if (!out.empty()) return out;
+  add(false, induced_delay(valve.front().coil, run, trial.stroke_m()));
+  if (out.empty() && free_of_dither(run.steady_lines())) add(true, wrong_clock(trial.run, valve.front().coil));
   return out;
 }
 

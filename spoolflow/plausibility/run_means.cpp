@@ -90,7 +90,7 @@ void RunMeans::take(const recording::SampleBlock& block) {
   position_resolution_.take(time_s, block.column(Channel::position));
   steady_lines_.position.take(time_s, block.column(Channel::position));
   clipped_.take(block.columns);
-  motion_delay_.take(block.columns);
+  motion_.take(block.columns);
   sample_grid_.take(block.columns);
   const bool both = !block.column(Channel::current_b).empty();
   for (const std::size_t k : {0U, 1U}) {

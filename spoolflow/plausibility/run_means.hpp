@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "spoolflow/plausibility/clipped_channel.hpp"
-#include "spoolflow/plausibility/motion_delay.hpp"
 #include "spoolflow/plausibility/position_resolution.hpp"
+#include "spoolflow/plausibility/signals/motion_trace.hpp"
 #include "spoolflow/plausibility/signals/sample_grid.hpp"
 #include "spoolflow/plausibility/steady_lines.hpp"
 #include "spoolflow/recording/reader.hpp"
@@ -36,7 +36,7 @@ class RunMeans {
   [[nodiscard]] const SteadyLines& steady_lines() const { return steady_lines_; }
   [[nodiscard]] const ClippedChannels& clipped() const { return clipped_; }
   [[nodiscard]] const SampleGrid& sample_grid() const { return sample_grid_; }
-  [[nodiscard]] const MotionDelay& motion_delay() const { return motion_delay_; }
+  [[nodiscard]] const MotionTrace& motion() const { return motion_; }
 
  private:
   struct Column {
@@ -54,7 +54,7 @@ class RunMeans {
   PositionResolution position_resolution_;
   SteadyLines steady_lines_;
   ClippedChannels clipped_;
-  MotionDelay motion_delay_;
+  MotionTrace motion_;
   SampleGrid sample_grid_;
   double last_s_ = 0;
   bool begun_ = false;

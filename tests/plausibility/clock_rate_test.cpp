@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/plausibility/closed_form_coil.hpp"
+
 namespace spoolflow::plausibility {
 namespace {
 
@@ -12,15 +14,8 @@ using recording::Channel;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr double resistance_Ohm = 3;
-
-/// In closed form, falling with the opening and bending with the current.
-double flux_Wb(double current_A, double position_m) {
-  return 0.2 * std::tanh(0.6 * current_A) * (1 - 50 * position_m);
-}
-
 /// Means over 10 ms of a coil at work for a minute, in which the recorder counts `seconds` for each second.
-recording::Recording recorded(double seconds, double voltage_scale = 1) {
+recording::Recording recorded_by(double seconds, double voltage_scale = 1) {
   recording::Recording out;
   const auto current_A = [](double t) { return 1 + 0.4 * std::sin(1.9 * t) + 0.2 * std::sin(5.3 * t); };
   const auto position_m = [](double t) { return 1e-3 * (1 + 0.6 * std::sin(1.9 * t - 0.4)); };
@@ -36,25 +31,24 @@ recording::Recording recorded(double seconds, double voltage_scale = 1) {
   return out;
 }
 
-const KnownCoil coil{resistance_Ohm, flux_Wb};
-
 TEST(ClockRate, TheInducedVoltageTellsTimeThatRunsTooFastOrSlow) {
-  EXPECT_THAT(wrong_clock(recorded(0.5), coil), HasSubstr("time runs 1.9 times too fast: beside its resistance"));
-  EXPECT_THAT(wrong_clock(recorded(2), coil), HasSubstr("time runs 2.0 times too slow"));
+  EXPECT_THAT(wrong_clock(recorded_by(0.5), coil), HasSubstr("time runs 1.9 times too fast: beside its resistance"));
+  EXPECT_THAT(wrong_clock(recorded_by(2), coil), HasSubstr("time runs 2.0 times too slow"));
 }
 
 TEST(ClockRate, ACoilInItsOwnTimeRaisesNothing) {
-  for (const double seconds : {0.8, 1.0, 1.2}) EXPECT_THAT(wrong_clock(recorded(seconds), coil), IsEmpty()) << seconds;
+  for (const double seconds : {0.8, 1.0, 1.2})
+    EXPECT_THAT(wrong_clock(recorded_by(seconds), coil), IsEmpty()) << seconds;
 }
 
 TEST(ClockRate, WhatAnotherScaleMakesOfTheResistanceTooIsNoClock) {
-  EXPECT_THAT(wrong_clock(recorded(1, 0.5), coil), IsEmpty());
-  EXPECT_THAT(wrong_clock(recorded(1, 2), coil), IsEmpty());
+  EXPECT_THAT(wrong_clock(recorded_by(1, 0.5), coil), IsEmpty());
+  EXPECT_THAT(wrong_clock(recorded_by(1, 2), coil), IsEmpty());
 }
 
 TEST(ClockRate, WithoutAKnownCoilOrAMovingCurrentItSaysNothing) {
-  EXPECT_THAT(wrong_clock(recorded(0.5), {}), IsEmpty());
-  recording::Recording still = recorded(0.5);
+  EXPECT_THAT(wrong_clock(recorded_by(0.5), {}), IsEmpty());
+  recording::Recording still = recorded_by(0.5);
   for (double& current_A : still.column(Channel::current)) current_A = 1;
   EXPECT_THAT(wrong_clock(still, coil), IsEmpty());
 }

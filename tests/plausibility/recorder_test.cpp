@@ -98,9 +98,9 @@ Recording position_late(Recording run, double late_s) {
   return run;
 }
 std::optional<double> delay_of(const Recording& run) {
-  MotionDelay delay;
-  delay.take(run.columns);
-  return delay.late_s();
+  MotionTrace motion;
+  motion.take(run.columns);
+  return motion_delay_s(motion);
 }
 
 TEST(MotionDelay, IsFoundBesideWhatASpoolTakes) {

@@ -1,17 +1,11 @@
 #pragma once
 /// Whether the time of a recording is that in which its coil worked.
-#include <functional>
 #include <string>
 
+#include "spoolflow/plausibility/signals/known_coil.hpp"
 #include "spoolflow/recording/recording.hpp"
 
 namespace spoolflow::plausibility {
-
-/// A coil as calibrated.
-struct KnownCoil {
-  double resistance_Ohm = 0;                                             ///< 0: not known
-  std::function<double(double current_A, double position_m)> flux_Wb{};  ///< its flux linkage; empty: not known
-};
 
 /// One sentence where the coil has less than 0.7 times, or more than 1.6 times, the voltage beside its resistance that
 /// its flux induces in the recorded time: sound runs have 0.89 to 1.34 times. Faraday's law; omits hysteresis and eddy
