@@ -16,6 +16,7 @@
 #include "spoolflow/plausibility/oil_temperature.hpp"
 #include "spoolflow/plausibility/relation.hpp"
 #include "spoolflow/plausibility/signals/coil_signals.hpp"
+#include "spoolflow/plausibility/signals/force_delay.hpp"
 #include "spoolflow/plausibility/signals/sample_grid.hpp"
 #include "spoolflow/units/conversion.hpp"
 
@@ -84,6 +85,7 @@ std::vector<Finding> channel_findings(const std::vector<const Recording*>& campa
     grid.take(recording->columns);
     add(*recording, false, grid.resampled());
     add(*recording, false, grid.coarse_current());
+    add(*recording, false, late_force(*recording));
     MotionTrace motion;
     motion.take(recording->columns);
     if (const auto late_s = motion_delay_s(motion)) add(*recording, true, shown_delay(*late_s));
