@@ -103,7 +103,8 @@ std::string shown_delay(double late_s) {
 }
 
 std::string induced_delay(const KnownCoil& coil, const RunMeans& run, double stroke_m) {
-  if (!free_of_dither(run.steady_lines())) return {};
+  constexpr std::size_t pieces = 3;  // twelve seconds
+  if (!free_of_dither(run.steady_lines(), pieces)) return {};
   const auto late_s = induced_delay_s(run.motion(), coil, stroke_m);
   return late_s ? late_against(*late_s, "by the voltage that the spool's motion induces in the coil", 3) : "";
 }

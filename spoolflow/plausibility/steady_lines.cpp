@@ -22,7 +22,6 @@ constexpr std::size_t piece = 2048;  ///< points of a spectrum
 constexpr double point_s = 0.002;    ///< between them: means of the samples
 constexpr std::size_t bins = piece / 2;
 constexpr std::size_t most_pieces = 128;  ///< kept; then every second one, and every second one of those to come
-constexpr std::size_t fewest_pieces = 8;
 constexpr std::size_t own_bins = 4, neighbour_bins = 24;  ///< either side of a line, which a Hann window spreads
 constexpr double longest_step_s = 0.004, uneven = 1.5;    ///< of the time between samples
 constexpr double lowest_beat_Hz = 1, lowest_Hz = 15, highest_Hz = 120, highest_dither_Hz = 240, lowest_dither_Hz = 60;
@@ -122,7 +121,7 @@ void MedianSpectrum::take(std::span<const double> time_s, std::span<const double
   for (std::size_t k = 0; k < value.size(); ++k) parts_->add(time_s[k], value[k]);
 }
 
-Spectrum MedianSpectrum::median() const {
+Spectrum MedianSpectrum::median(std::size_t fewest_pieces) const {
   const auto& pieces = parts_->power;
   if (pieces.size() < fewest_pieces) return {};
   const double rate_Hz = static_cast<double>(parts_->kept_samples) / parts_->kept_s;
@@ -229,8 +228,8 @@ std::optional<SpectralLine> undriven_line(const Spectrum& current, const Spectru
 
 }  // namespace
 
-bool free_of_dither(const SteadyLines& run) {
-  const std::array<Spectrum, 2> current{run.current[0].median(), run.current[1].median()};
+bool free_of_dither(const SteadyLines& run, std::size_t fewest_pieces) {
+  const std::array<Spectrum, 2> current{run.current[0].median(fewest_pieces), run.current[1].median(fewest_pieces)};
   return !current[0].power.empty() && dither_lines(run, current).empty();
 }
 

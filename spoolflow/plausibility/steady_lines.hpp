@@ -47,8 +47,8 @@ class MedianSpectrum {
   /// more than 4 ms apart say nothing.
   void take(std::span<const double> time_s, std::span<const double> value);
 
-  /// Empty of a run of fewer than eight pieces.
-  [[nodiscard]] Spectrum median() const;
+  /// Empty of a run of fewer pieces.
+  [[nodiscard]] Spectrum median(std::size_t fewest_pieces = 8) const;
 
  private:
   struct Parts;
@@ -69,8 +69,8 @@ struct SteadyValve {
   std::array<double, 2> resistance_Ohm{};  ///< of each coil; 0: not known
 };
 
-/// Whether the current's spectrum is known, and none of dither.
-[[nodiscard]] bool free_of_dither(const SteadyLines& run);
+/// Whether the current's spectrum is known, from so many pieces, and none of dither.
+[[nodiscard]] bool free_of_dither(const SteadyLines& run, std::size_t fewest_pieces = 8);
 
 /// In words what shakes the spool, and what beats in a coil's current beside dither and what follows from it: a line of
 /// the position of the valve's noise, beside dither 2.5 times that, of a current of a thousandth of its largest value

@@ -8,9 +8,9 @@
 namespace spoolflow::plausibility {
 namespace {
 
-constexpr double latest_s = 0.0095;        ///< sound runs have 4 ms at most
-constexpr double earliest_s = -0.0155;     ///< sound runs have -8 ms at least
-constexpr double most_left = 0.9;          ///< of what is left without a shift
+constexpr std::ptrdiff_t earliest_usual = -4, latest_usual = 3;  ///< blocks; sound runs have -8 to 6 ms
+constexpr double latest_s = 0.0095, earliest_s = -0.0155;
+constexpr double most_left = 0.9;          ///< of what a usual shift leaves: what shakes all along fits at many
 constexpr std::ptrdiff_t most_shift = 75;  ///< blocks
 constexpr std::ptrdiff_t margin = 2;       ///< of rates, on either side
 constexpr double fast_strokes_per_s = 0.5, fewest_fast = 500;
@@ -89,18 +89,17 @@ std::optional<double> induced_delay_s(const MotionTrace& run, const KnownCoil& c
   }
   if (static_cast<double>(all.size()) < fewest_fast) return std::nullopt;
   std::ptrdiff_t best = 0;
-  const double unshifted = left_over(all, speed_m_per_s, 0);
-  double least = unshifted;
+  double least = 1, usual_least = 1;
   for (std::ptrdiff_t shift = -most_shift; shift <= most_shift; ++shift) {
     const double left = left_over(all, speed_m_per_s, shift);
-    if (left < least) {
-      least = left;
-      best = shift;
-    }
+    if (shift >= earliest_usual && shift <= latest_usual) usual_least = std::min(usual_least, left);
+    if (left >= least) continue;
+    least = left;
+    best = shift;
   }
   const double late_s = static_cast<double>(best) * MotionTrace::block_s;
   const bool usual = late_s > earliest_s && late_s < latest_s;
-  if (usual || !(least < most_left * unshifted)) return std::nullopt;
+  if (usual || !(least < most_left * usual_least)) return std::nullopt;
   return late_s;
 }
 
