@@ -1,5 +1,8 @@
 """Estimates as files, channel maps as dicts, and what a file holds."""
 import os
+import shutil
+import stat
+import threading
 import unittest
 
 import numpy as np
@@ -33,6 +36,45 @@ class Outputs(examples.InAFolder):
         with self.assertRaisesRegex(spoolflow.Error, "nowhere/flow.h5: cannot be written: No such file or directory"):
             estimate.write(self.folder / "nowhere" / "flow.h5")
         self.assertEqual(os.listdir(self.folder), [])
+
+
+    def test_leave_links_pipes_devices_and_rights_as_they_are(self):
+        estimate = spoolflow.load_model(examples.MODEL).estimate(time_s=[0], current_A=[0], position_m=[0])
+        kept = self.written("kept.csv", "old")
+        kept.chmod(0o600)
+        link, pipe = self.folder / "link.csv", self.folder / "pipe.csv"
+        link.symlink_to("kept.csv")
+        estimate.write(link)
+        self.assertTrue(link.is_symlink())
+        self.assertTrue(kept.read_text().startswith("time_s,"))
+        self.assertEqual(stat.S_IMODE(kept.stat().st_mode), 0o600)
+        os.mkfifo(pipe)
+        read = []
+        reader = threading.Thread(target=lambda: read.append(pipe.read_text()))
+        reader.start()
+        estimate.write(pipe)
+        reader.join()
+        self.assertEqual(read, [kept.read_text()])
+        self.assertTrue(pipe.is_fifo())
+        with self.assertRaisesRegex(spoolflow.Error, "cannot be written: it is a folder; name a file in it"):
+            spoolflow.load_model(examples.MODEL).save(self.folder)
+
+    def test_are_no_inputs(self):
+        run, model = self.folder / "run.h5", self.folder / "model.json"
+        shutil.copy(examples.RAMP, run)
+        shutil.copy(examples.MODEL, model)
+        before = run.read_bytes(), model.read_bytes()
+        read = spoolflow.read_recording(run)
+        for work in (lambda: spoolflow.validate(model, run, report=run), lambda: spoolflow.validate(model, run, report=model),
+                     lambda: spoolflow.validate(model, read, report=run), lambda: spoolflow.monitor(model, run, adapt=model),
+                     lambda: spoolflow.analyse(model, recording=run, report=run)):
+            with self.assertRaisesRegex(spoolflow.Error, "this call also uses .*, which is the same file; name another"):
+                work()
+        with self.assertRaisesRegex(spoolflow.Error, "this call also uses .*both.html"):
+            spoolflow.monitor(model, run, adapt=self.folder / "both.html", report=self.folder / "both.html")
+        with self.assertRaisesRegex(spoolflow.Error, "the folder .*nowhere does not exist; create it or name another"):
+            spoolflow.validate(model, run, report=self.folder / "nowhere" / "report.html")
+        self.assertEqual((run.read_bytes(), model.read_bytes()), before)
 
 
 class ChannelMaps(examples.InAFolder):

@@ -9,7 +9,7 @@ from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Seque
 
 from . import _native, apart, settings
 from .errors import FileMissing, calling, naming_missing
-from .files import PathLike, write_whole
+from .files import PathLike, keep_apart, write_whole
 from .models import Model
 from .runs import as_recording, is_path, several_of
 from .work import AnyModel, StepProgress, _units
@@ -93,6 +93,7 @@ def calibrate(campaign: Union[Campaign, Iterable[Campaign]], *, allow_outside: b
         outside = allow_outside or any(isinstance(each, Mapping) for each in several)
         type_file = kept_files.enter_context(_type_file(type))
         recordings: List[Any] = [name for file in files for name in _native.campaign_files(file, type_file)]
+        keep_apart({"report": report}, [*several, *recordings, type])
         if type_file is None:
             kept, page, notes = apart.call("calibrate", recordings, files, outside, despite_doubts, as_type,
                                            _units(report, units), progress=progress)

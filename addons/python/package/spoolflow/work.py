@@ -16,7 +16,7 @@ from .errors import naming_missing
 from .estimates import Estimate
 from .extras import matplotlib_axes, pandas
 from .figures import JudgedFigures, flat
-from .files import PathLike, write_whole
+from .files import PathLike, keep_apart, write_whole
 from .models import Model, load_model
 from .recordings import Recording
 from .runs import Files, Run, as_files, index_of, several_of
@@ -117,6 +117,7 @@ def validate(model: AnyModel, recordings: Runs, *, channels: Optional[Channels] 
     if environment is not None:
         known = known.in_environment(environment)
     runs = several_of(recordings)
+    keep_apart({"report": report}, [model, *runs, requirements, *others, channels, environment])
     with naming_missing(*runs, requirements, *others, channels), as_files(runs, channels) as files:
         figures, page, _ = apart.call(
             "validate", files.paths, known._kept, files.paths, files.channels, estimator, _path(requirements),
@@ -171,6 +172,7 @@ def monitor(model: AnyModel, recordings: Runs, *, baseline: Optional[PathLike] =
         raise _native.Error(f"false_alarms_per_year: Value {false_alarms_per_year} not in range 1e-06 to 10000")
     known = as_model(model)
     runs = several_of(recordings)
+    keep_apart({"adapt": adapt, "report": report}, [model, *runs, baseline, channels])
     with naming_missing(*runs, baseline, channels), as_files(runs, channels) as files:
         figures, page, corrected = apart.call(
             "monitor", files.paths, known._kept, files.paths, files.channels, _path(baseline) or "",
@@ -245,6 +247,7 @@ def analyse(model: AnyModel, scenario: Optional[PathLike] = None, *, recording: 
     ripple_limit_percent: of the flow that dither may make, half of peak to peak in % of full scale, 0.001 to 100.
     """
     kept = as_model(model)._kept
+    keep_apart({"report": report}, [model, scenario, recording, channels])
     for name, value, least, most in (("samples", samples, 2, 65536), ("seed", seed, 1, 2**64 - 1), ("workers", workers, 0, 1024)):
         if value is not None and not least <= value <= most:
             raise _native.Error(f"{name}: Value {value} not in range {least} to {most}")
