@@ -51,6 +51,17 @@ class Campaigns(examples.InAFolder):
         with self.assertRaisesRegex(spoolflow.Error, "^workers: Value -1"):
             spoolflow.simulate_campaign("size_6", workers=-1)
 
+    def test_replace_their_like_alone(self):
+        valve = self.written("small.toml", SMALL)
+        bench = self.folder / "bench"
+        bench.mkdir()
+        (bench / "spring.csv").write_text("time_s,position_mm\n")
+        with self.assertRaises(spoolflow.Error) as caught:
+            spoolflow.campaign(valve, bench, calibration_only=True)
+        self.assertEqual(str(caught.exception), examples.refusal("campaign", valve, "-o", bench, "--calibration-only"))
+        self.assertEqual(os.listdir(bench), ["spring.csv"])
+        self.assertEqual((bench / "spring.csv").read_text(), "time_s,position_mm\n")
+
     def test_a_failure_to_store_goes_through(self):
         valve = self.written("small.toml", SMALL)
         (self.folder / "full").mkdir(mode=0o755)

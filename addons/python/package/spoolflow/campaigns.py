@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Dict, Iterator, Mapping, Optional
+from typing import Any, Dict, Iterator, List, Mapping, Optional
 
 from . import _native
 from .files import PathLike, write_whole
@@ -36,12 +36,24 @@ def _checked(workers: int) -> int:
     return workers
 
 
+def _refuse_to_replace(folder: str, listing: str, names: List[str]) -> None:
+    """An earlier campaign of the rig is replaced, other files are not."""
+    if _native.is_virtual_campaign(listing):
+        return
+    for name in ["campaign.toml", *names, *(os.path.join("truth", each) for each in names)]:
+        path = os.path.join(folder, name)
+        if os.path.exists(path):
+            raise _native.Error(f"cannot write {path}: it is there already and comes from no earlier campaign of the virtual rig; "
+                                "move it, or name another folder")
+
+
 def campaign(valve: PathLike, folder: PathLike, *, calibration_only: bool = False, truth: bool = False, workers: int = 0,
              progress: Optional[Progress] = None) -> str:
     """Makes a whole measuring campaign of a valve on the virtual rig: the folder of `spoolflow campaign`.
 
     valve: a valve file (TOML, docs/rig.md), or "size_6", "size_10", "fast_dither", "whole_size_6", "whole_differential".
-    folder: for the recordings; is made where it is not there.
+    folder: for the recordings; is made where it is not there. An earlier campaign of the rig in it is replaced; other files of
+        these names are refused.
     calibration_only: leave out the operating runs that judge a model. truth: write flow, pressure and each force of every
         run to folder/truth, too. workers: threads, 0 for all cores; the recordings are the same.
     progress: called with the share done, 0 to 1.
@@ -49,16 +61,19 @@ def campaign(valve: PathLike, folder: PathLike, *, calibration_only: bool = Fals
     Returns the name of campaign.toml, which `calibrate` reads. The size_6 valve's takes some 20 s and 100 MB.
     """
     target = os.fsdecode(folder)
+    listing = os.path.join(target, "campaign.toml")
+    _checked(workers)
+    text, names = _native.campaign_outline(os.fsdecode(valve), calibration_only)
+    _refuse_to_replace(target, listing, names)
     os.makedirs(os.path.join(target, "truth") if truth else target, exist_ok=True)
+    write_whole(listing, text)  # first: it says that the recordings beside it may be made again
 
     def store(name: str, recording: str, really: Optional[str]) -> None:
         if really is not None:
             write_whole(os.path.join(target, "truth", name), really)
         write_whole(os.path.join(target, name), recording)
 
-    text = _native.campaign(os.fsdecode(valve), calibration_only, truth, True, _checked(workers), store, progress)
-    listing = os.path.join(target, "campaign.toml")
-    write_whole(listing, text)
+    _native.campaign(os.fsdecode(valve), calibration_only, truth, True, workers, store, progress)
     return listing
 
 
