@@ -1,4 +1,5 @@
 """Recordings as arrays in SI units."""
+import pickle
 import threading
 import unittest
 
@@ -6,6 +7,31 @@ import numpy as np
 
 import examples
 import spoolflow
+
+
+class Changed(unittest.TestCase):
+    """What a script does to a recording counts for all that is made of it."""
+
+    def test_arrays_count_in_files_work_too(self):
+        run = spoolflow.read_recording(examples.RAMP)
+        self.assertIsNotNone(run.whole_file())
+        run.current_A[:] *= 1.05
+        self.assertIsNone(run.whole_file())
+        judged = [spoolflow.validate(examples.model(), given).runs[0].estimators[-1].error.all.p95.percent_FS
+                  for given in (run, dict(run), pickle.loads(pickle.dumps(run)), examples.RAMP)]
+        self.assertEqual(judged[:1] * 2, judged[1:3])
+        self.assertGreater(judged[0], 2 * judged[3])
+        again = pickle.loads(pickle.dumps(examples.ramp()))
+        again.current_A[:] *= 1.05  # the recording's memory there, too
+        p95 = spoolflow.validate(examples.model(), again).runs[0].estimators[-1].error.all.p95.percent_FS
+        self.assertEqual(p95, judged[0])
+
+    def test_arrays_are_not_replaced_in_silence(self):
+        run = examples.ramp()
+        for name in ("current_A", "pressure_p_Pa"):
+            with self.assertRaisesRegex(AttributeError, f"^{name}: a recording's array is not replaced"):
+                setattr(run, name, run.current_A)
+        run.remark = "kept"
 
 
 class Recording(examples.InAFolder):

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import json
 import os
+import zlib
 from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Mapping, Optional, Tuple, Union, overload
 
 import numpy as np
@@ -24,12 +25,14 @@ class Recording(Mapping[str, NDArray[Any]]):
     """A whole recording: `recording["current_A"]` or `recording.current_A`, an array a channel, NaN where a sample is
     missing. Names are those of docs/formats/channels.md with the SI unit: `time_s`, `current_A`, `voltage_V`,
     `position_m`, `oil_temperature_K`, `flow_reference_m3_per_s`, `pressure_difference_Pa`, ...; shares (`position_set`, 0
-    to 1) and numbers (`test`) have none. The arrays refer to the recording's memory; nothing is copied.
+    to 1) and numbers (`test`) have none. The arrays refer to the recording's memory; nothing is copied. What is written into
+    them (`recording.current_A[:] *= 1.02`) counts for all that is made of the recording; another array in the place of one
+    takes a table: `{**recording, "current_A": other}`.
     """
 
     def __init__(self, read: "_native.Recording", file: str) -> None:
         self._read = read
-        self._source: Optional[Tuple[str, int, int]] = None
+        self._source: Optional[Tuple[str, int, int, int]] = None
         self._columns: Dict[str, NDArray[Any]] = read.columns()
         #: where it was read
         self.file = file
@@ -74,6 +77,19 @@ class Recording(Mapping[str, NDArray[Any]]):
             return columns[name]
         raise AttributeError(self._without(name))
 
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name in _native.columns:
+            raise AttributeError(f"{name}: a recording's array is not replaced; write into it, {name}[:] = ..., or make a table, "
+                                 f"{{**recording, '{name}': ...}}")
+        super().__setattr__(name, value)
+
+    def __getstate__(self) -> Dict[str, Any]:
+        """Without the arrays, which are the recording's memory."""
+        return {name: value for name, value in self.__dict__.items() if name != "_columns"}
+
+    def __setstate__(self, state: Dict[str, Any]) -> None:
+        self.__dict__.update(state, _columns=state["_read"].columns())
+
     def _without(self, name: str) -> str:
         return f"{name}: no such channel; the recording has {', '.join(self.__dict__.get('_columns', {}))}"
 
@@ -81,9 +97,20 @@ class Recording(Mapping[str, NDArray[Any]]):
         return [*super().__dir__(), *self._columns]
 
     def whole_file(self) -> Optional[str]:
-        """The file that it is all of, by its own names and units, where that has not changed since; else None."""
+        """The file that it is all of, by its own names and units, where neither has changed since; else None."""
         source = self._source
-        return source[0] if source is not None and source == _stamp(source[0]) else None
+        return source[0] if source is not None and source == self._stamp(source[0]) else None
+
+    def _stamp(self, file: str) -> Optional[Tuple[str, int, int, int]]:
+        """What changes with the content of the file or of the arrays."""
+        try:
+            of = os.stat(file)
+        except OSError:
+            return None
+        checksum = 0
+        for column in self._columns.values():
+            checksum = zlib.crc32(column.data, checksum)
+        return os.path.abspath(file), of.st_mtime_ns, of.st_size, checksum
 
     @property
     def samples(self) -> int:
@@ -111,6 +138,11 @@ class Recording(Mapping[str, NDArray[Any]]):
         return f"<Recording {self.file}: {len(time)} samples{span}: {', '.join(self)}>"
 
 
+def _check_stroke(stroke_m: Optional[float]) -> None:
+    if stroke_m is not None and not 0 < stroke_m <= 0.1:
+        raise _native.Error(f"stroke_m: Value {stroke_m} not in range 0 to 0.1 m; spools move by 0.5 to 20 mm")
+
+
 def read_recording(path: PathLike, channels: Optional[Channels] = None, *,
                    stroke_m: Optional[float] = None) -> Recording:
     """Reads a recording whole: CSV, MATLAB v5 or v7.3, HDF5, TDMS, MDF 4, Excel (.xlsx), recognised by content.
@@ -118,27 +150,19 @@ def read_recording(path: PathLike, channels: Optional[Channels] = None, *,
     path: the file. Columns named `<channel>_<unit>`, such as `current_A` or `position_mm`, need nothing more.
     channels: a channel map of a file with other column names or units: a file (TOML, docs/formats/channels.md), or a
         dict such as `{"current_A": "I_coil [mA]", "position": {"column": "LVDT", "unit": "V", "scale": 0.24, "to": "mm"}}`.
-    stroke_m: the valve's stroke [m], > 0, where positions are given in percent.
+    stroke_m: the valve's stroke [m], > 0 and up to 0.1, where positions are given in percent.
 
     Raises FileNotFoundError where there is none, else Error with file, line and column: text among numbers, times that run
     back, values implausible for their unit.
     """
     file = os.fsdecode(path)
+    _check_stroke(stroke_m)
     with naming_missing(path, channels), as_file(channels) as map_file:
         read = apart.call("read_recording", [file], file, map_file, stroke_m)
     out = Recording(read, file)
     if channels is None and stroke_m is None:
-        out._source = _stamp(file)
+        out._source = out._stamp(file)
     return out
-
-
-def _stamp(file: str) -> Optional[Tuple[str, int, int]]:
-    """What changes with a file's content."""
-    try:
-        of = os.stat(file)
-    except OSError:
-        return None
-    return os.path.abspath(file), of.st_mtime_ns, of.st_size
 
 
 def inspect(path: PathLike, channels: Optional[Channels] = None, *, stroke_m: Optional[float] = None) -> Dict[str, Any]:
@@ -155,6 +179,7 @@ def inspect(path: PathLike, channels: Optional[Channels] = None, *, stroke_m: Op
     Raises Error as `read_recording`; where no channel is recognised, only the columns and the proposal are there.
     """
     file = os.fsdecode(path)
+    _check_stroke(stroke_m)
     with naming_missing(path, channels), as_file(channels) as map_file:
         seen: Dict[str, Any] = json.loads(apart.call("inspect", [file], file, map_file, stroke_m))
     return seen
