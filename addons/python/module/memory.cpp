@@ -17,6 +17,7 @@
 #include "addons/python/module/read_recording.hpp"
 #include "addons/python/module/signal_check.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/files/header_name.hpp"
 #include "spoolflow/recording/files/vector_table.hpp"
 #include "spoolflow/recording/memory_reader.hpp"
 
@@ -135,11 +136,17 @@ std::shared_ptr<ReadRecording> picked(const ReadRecording& read, const SampleNum
   return out;
 }
 
+/// Whether a column of that name is some channel's, in whatever unit.
+bool names_channel(const std::string& column) {
+  return recording::channel_header({column, column, unit_beside(column)}).has_value();
+}
+
 }  // namespace
 
 void add_memory(py::module_& module) {
   module.def("as_recording", &as_recording);
   module.def("write_recording", &write_recording);
+  module.def("names_channel", &names_channel);
   module.def("picked", &picked);
 }
 

@@ -83,6 +83,30 @@ class Refusal(examples.InAFolder):
         with self.assertRaisesRegex(spoolflow.Error, r"estimator: best not in \{condensed,observer\}"):
             estimate(examples.ramp(), estimator="best")
 
+    def test_of_an_argument_that_nothing_reads_names_it(self):
+        time = np.arange(10.0) * 1e-3
+        needed = {"time_s": time, "current_A": 0 * time, "position_m": 0 * time}
+        model = examples.model()
+        for work in (model.estimate, model.sensor().estimate, model.doubts_about):
+            with self.assertRaisesRegex(spoolflow.Error, "^volage_V: is no channel .*; did you mean voltage_V?"):
+                work(**needed, volage_V=time)
+        with self.assertRaisesRegex(spoolflow.Error, "^enviroment: .*; did you mean environment?"):
+            model.estimate(**needed, enviroment="machine")
+        with self.assertRaisesRegex(spoolflow.Error, "have a meaning beside dither=True alone"):
+            spoolflow.analyse(model, ripple_limit_percent=1)
+        for stroke_m in (-1e-3, 0, 2.4, float("nan")):
+            with self.assertRaisesRegex(spoolflow.Error, f"^stroke_m: Value {stroke_m} not in range"):
+                spoolflow.read_recording(examples.RAMP, stroke_m=stroke_m)
+
+    def test_says_which_columns_of_a_table_may_be_meant(self):
+        run = examples.ramp()
+        table = {"time_s": run.time_s, "current_A": run.current_A, "position_m": run.position_m, "U_coil_V": run.voltage_V,
+                 "remark": np.zeros(run.samples)}
+        file = self.written("run.csv", "time_s,current_A,position_mm,U_coil_V\n0,1,1,5\n0.001,1,1,5\n")
+        for given in (table, spoolflow.read_recording(file)):
+            with self.assertWarnsRegex(UserWarning, "column 'U_coil_V' is not read: if it is voltage, name it voltage_<unit>"):
+                examples.model().estimate(given)
+
     def test_of_arrays_in_other_units_has_the_words_for_recordings(self):
         run = examples.ramp()
         columns = {name: np.array(run[name]) for name in ("time_s", "current_A", "position_m", "oil_temperature_K")}

@@ -1,13 +1,26 @@
 """The arrays of a run, or of keyword arguments, as the compiled part reads them."""
 from __future__ import annotations
 
+import difflib
+import warnings
 from typing import Any, Dict, Mapping, Optional
 
 from numpy.typing import NDArray
 
 from . import _native
 from .columns import SAMPLE_NAMES, Clock, array_of, in_seconds, of_one_coil_or_both
+from .recordings import Recording
 from .runs import as_recording, columns_of, is_path
+
+
+def _refuse_unknown(given: Mapping[str, Any]) -> None:
+    """Of keyword arguments those that are no channel in any unit; of a table such columns are left out."""
+    for name in given:
+        if name not in _native.columns and not _native.names_channel(name):
+            near = difflib.get_close_matches(name, (*SAMPLE_NAMES, "estimator", "environment"), 1)
+            raise _native.Error(
+                f"{name}: is no channel with its unit and no option{''.join(f'; did you mean {each}?' for each in near) or ';'} the "
+                f"sensor reads {', '.join(SAMPLE_NAMES)}; a table may have other columns beside them")
 
 
 def sample_columns(run: Optional[Any], given: Mapping[str, Any], direction: str,
@@ -26,7 +39,11 @@ def sample_columns(run: Optional[Any], given: Mapping[str, Any], direction: str,
     else:
         given = {name: given[name] for name in also}
     given = in_seconds(given, clock)
+    if run is None:
+        _refuse_unknown(given)
     if any(name not in _native.columns for name in given):
-        given = as_recording(given)
+        run = given = as_recording(given)
+    if isinstance(run, Recording) and run.resampled:
+        warnings.warn(f"{run.file}: {run.resampled}", stacklevel=3)
     wanted = {name: given[name] for name in SAMPLE_NAMES if name in given}
     return {name: array_of(name, value) for name, value in of_one_coil_or_both(wanted, direction).items()}

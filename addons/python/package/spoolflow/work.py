@@ -259,6 +259,8 @@ def analyse(model: AnyModel, scenario: Optional[PathLike] = None, *, recording: 
         if report is not None and advice[1] is not None:
             write_whole(report, advice[1])
         return DitherAdvice(advice[0], advice[2] or "")
+    if dither_shape != "sine" or ripple_limit_percent != 0.5:
+        raise _native.Error("dither_shape, ripple_limit_percent: have a meaning beside dither=True alone; give it, too, or leave them away")
     with contextlib.ExitStack() as kept_files:
         kept_files.enter_context(naming_missing(scenario, recording, channels))
         files = Files([], None) if recording is None else kept_files.enter_context(as_files([recording], channels))
