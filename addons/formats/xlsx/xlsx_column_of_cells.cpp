@@ -59,6 +59,12 @@ bool XlsxColumnOfCells::may_group_thousands(std::string_view text) {
 double XlsxColumnOfCells::number(const XlsxCell& cell, std::uint64_t row, double value) {
   if (origin_) return refuse(cell, row, "is a number, where the cells above are dates or times; write one kind alone");
   is_used_ = has_numbers_ = true;
+  if (in_percent_.value_or(cell.in_percent) != cell.in_percent) {
+    return refuse(cell, row,
+                  fmt::format("is {} shown in percent, where the cells above are{}; give the column one format",
+                              cell.in_percent ? "a number" : "not", cell.in_percent ? " not" : ""));
+  }
+  in_percent_ = cell.in_percent;
   return value;
 }
 

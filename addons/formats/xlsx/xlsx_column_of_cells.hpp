@@ -25,6 +25,8 @@ class XlsxColumnOfCells {
   /// Whether there is anything in it but text.
   [[nodiscard]] bool is_used() const { return is_used_ || !has_text_; }
   [[nodiscard]] bool is_clock() const { return origin_.has_value(); }
+  /// Whether its numbers are shown in percent; the values are shares.
+  [[nodiscard]] bool is_in_percent() const { return in_percent_.value_or(false); }
   /// Of the first cell that is not as it should be; empty where all are.
   [[nodiscard]] const std::string& refusal() const {
     return refusal_.empty() && !comma_is_decimal_ ? doubtful_ : refusal_;
@@ -45,6 +47,7 @@ class XlsxColumnOfCells {
   std::string sheet_;  ///< "run.xlsx, 'Sheet1'!"
   bool from_1904_;
   std::optional<ClockTime> origin_{};
+  std::optional<bool> in_percent_{};
   bool is_used_ = false, has_numbers_ = false, has_text_ = false;
   bool has_comma_ = false, has_point_ = false;  ///< numbers that are written as text
   bool comma_is_decimal_ = false;               ///< beyond doubt

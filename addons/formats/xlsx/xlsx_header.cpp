@@ -79,7 +79,10 @@ std::optional<XlsxHeader::Place> XlsxHeader::place_above_last() const {
   const KeptRow& last = rows_.back();
   if (!is_row_of_samples(last)) return std::nullopt;
   std::size_t samples = rows_.size() - 1;
-  while (samples > 0 && std::ranges::none_of(rows_[samples - 1].cells, is_name)) --samples;
+  const auto is_above_none = [&](const KeptRow& row) {  // samples, too, where a remark stands beside numbers
+    return std::ranges::none_of(row.cells, is_name) || is_row_of_samples(row);
+  };
+  while (samples > 0 && is_above_none(rows_[samples - 1])) --samples;
   if (samples == 0) return std::nullopt;
   const bool units =
       samples > 1 && is_units_row(texts_of(rows_[samples - 1])) && names_samples(rows_[samples - 2], last);

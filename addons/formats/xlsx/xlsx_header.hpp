@@ -25,7 +25,7 @@ struct XlsxColumn {
 };
 
 /// Looks at the first rows of a sheet until they show a table: two rows, one below the other, of which at least two
-/// cells, and half of those that say anything, are numbers or times; above them, with nothing but numbers between, a
+/// cells, and half of those that say anything, are numbers or times; above them, with nothing but such rows between, a
 /// row of names over at least two of these cells and half of them, or such a row and a row of units below it. One such
 /// row is enough where the sheet ends with it. What stands above the names is passed over.
 class XlsxHeader {

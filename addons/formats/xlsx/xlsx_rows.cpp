@@ -118,7 +118,9 @@ class RowsListener final : public XmlListener {
       if (read_number(value_, '.', cell.number) != Digits::number) {
         refuse_xlsx(place(), fmt::format("'{}' is no number", value_.substr(0, 40)));
       }
-      cell.kind = type_ == 'n' && styles_.is_time(style_) ? XlsxCell::Kind::time : XlsxCell::Kind::number;
+      const XlsxShown shown = type_ == 'n' ? styles_.shown(style_) : XlsxShown::number;
+      cell.kind = shown == XlsxShown::time ? XlsxCell::Kind::time : XlsxCell::Kind::number;
+      cell.in_percent = shown == XlsxShown::percent;
     } else if (type_ == 'e') {
       cell.kind = XlsxCell::Kind::error;
     } else if (type_ == 's') {

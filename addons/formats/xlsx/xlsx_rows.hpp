@@ -24,6 +24,7 @@ struct XlsxCell {
   };
   std::uint32_t column = 0;  ///< 0 is A
   Kind kind = Kind::number;
+  bool in_percent = false;  ///< a number that is shown times 100, with the sign of percent
   double number = 0;
   std::string_view text{};  ///< until the next row
 };

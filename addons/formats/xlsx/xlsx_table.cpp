@@ -9,6 +9,8 @@
 #include "addons/formats/xlsx/xlsx_header.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/files/declared_size.hpp"
+#include "spoolflow/recording/files/header_name.hpp"
+#include "spoolflow/units/unit.hpp"
 
 namespace spoolflow::recording {
 namespace {
@@ -134,7 +136,10 @@ class XlsxTable final : public VectorTable {
   void copy(std::size_t column, std::uint64_t first, std::size_t count, double* out) override {
     const std::vector<double>& values = sheet_->values(listed_[column]);
     if (values.empty()) return void(std::fill_n(out, count, missing));
-    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(first), count, out);
+    const double factor = factors_[column];
+    std::transform(values.begin() + static_cast<std::ptrdiff_t>(first),
+                   values.begin() + static_cast<std::ptrdiff_t>(first + count), out,
+                   [factor](double value) { return factor * value; });
   }
 
  protected:
@@ -150,6 +155,8 @@ class XlsxTable final : public VectorTable {
     std::string sheets;
     for (const XlsxSheet& sheet : workbook.sheets)
       sheets += fmt::format("{}'{}'", sheets.empty() ? "" : ", ", sheet.name);
+    for (const std::string& hidden : workbook.hidden)
+      sheets += fmt::format("; '{}' is hidden and not read, show it in the program for sheets", hidden);
     throw RecordingError(
         fmt::format("{}: no sheet holds a table of samples within its first {} rows: a row of names, such as time_s, "
                     "current_A, position_mm, and numbers below (looked at {})",
@@ -160,9 +167,20 @@ class XlsxTable final : public VectorTable {
     for (std::size_t k = 0; k < sheet_->columns().size(); ++k) {
       const XlsxColumn& column = sheet_->columns()[k];
       if (!sheet_->cells(k).is_used()) continue;
-      add({{column.name, column.name, sheet_->cells(k).is_clock() ? "s" : column.unit}, sheet_->rows()});
+      const bool as_shown = sheet_->cells(k).is_in_percent() && is_or_may_be_percent(column);
+      const std::string unit = sheet_->cells(k).is_clock() ? "s" : as_shown && column.unit.empty() ? "%" : column.unit;
+      add({{column.name, column.name, unit}, sheet_->rows()});
       listed_.push_back(k);
+      factors_.push_back(as_shown ? 100 : 1);
     }
+  }
+  /// Of a column whose cells are shown in percent: whether that, or nothing, is what it is said to be in.
+  static bool is_or_may_be_percent(const XlsxColumn& column) {
+    const FileColumn said{column.name, column.name, column.unit};
+    const auto header = channel_header(said);
+    const std::string stated = header ? header->unit : stated_unit(said);
+    const auto unit = units::unit_named(stated);
+    return stated.empty() || (unit && unit->name == "percent");
   }
 
   void list_unread(const XlsxWorkbook& workbook) {
@@ -181,6 +199,7 @@ class XlsxTable final : public VectorTable {
   XlsxArchive archive_;
   std::unique_ptr<SheetTable> sheet_;
   std::vector<std::size_t> listed_;  ///< of each column of this table, which of the sheet's
+  std::vector<double> factors_;      ///< of each column of this table, from the sheet's numbers
   std::vector<UnreadPart> unread_;
   bool refuses_text_ = true;
 };

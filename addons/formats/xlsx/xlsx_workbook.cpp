@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -76,8 +77,13 @@ class WorkbookListener final : public XmlListener {
     if (element != "sheet" || out_.sheets.size() == most_parts) return;
     const std::string_view state = attributes.get("state");
     const Relationship* const part = parts_.named(std::string(attributes.get("id")));
-    if (part == nullptr || part->kind != "worksheet" || (!state.empty() && state != "visible")) return;
-    out_.sheets.push_back({std::string(attributes.get("name")), part->part});
+    if (part == nullptr || part->kind != "worksheet") return;
+    std::string name(attributes.get("name"));
+    if (state.empty() || state == "visible") {
+      out_.sheets.push_back({std::move(name), part->part});
+    } else if (out_.hidden.size() < most_parts) {
+      out_.hidden.push_back(std::move(name));
+    }
   }
   void end(std::string_view) override {}
 

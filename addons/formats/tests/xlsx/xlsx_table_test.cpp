@@ -2,18 +2,17 @@
 #include "addons/formats/xlsx/xlsx_table.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "addons/formats/tests/xlsx/xlsx_file.hpp"
-#include "addons/formats/xlsx/xlsx_styles.hpp"
+#include "addons/formats/tests/xlsx/xlsx_reading.hpp"
 #include "spoolflow/recording/inspection.hpp"
 #include "spoolflow/recording/open_table.hpp"
 #include "spoolflow/recording/reader.hpp"
-#include "tests/recording/column_of.hpp"
-#include "tests/recording/refusal.hpp"
 #include "tests/recording/temporary_file.hpp"
 
 namespace spoolflow::recording {
@@ -26,38 +25,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::NanSensitiveDoubleEq;
-
-std::vector<double> xlsx_column(const std::string& bytes, const std::string& name) {
-  return column_of("run.xlsx", bytes, name);
-}
-
-std::string xlsx_refused(const std::string& bytes, const std::string& name = "run.xlsx") {
-  const TemporaryFile file(name, bytes);
-  return refusal([&] {
-    const auto table = open_sample_table(file.path()).table;
-    std::vector<std::size_t> all;
-    for (std::size_t k = 0; k < table->columns().size(); ++k) all.push_back(k);
-    table->select(all);
-    std::vector<double> values(64 * all.size());
-    std::vector<double*> out;
-    for (const std::size_t k : all) out.push_back(values.data() + 64 * k);
-    (void)table->read(out, 64);
-  });
-}
-
-std::vector<std::string> xlsx_names(const std::string& bytes) {
-  const TemporaryFile file("run.xlsx", bytes);
-  std::vector<std::string> out;
-  const auto table = open_sample_table(file.path()).table;
-  for (const FileColumn& each : table->columns()) out.push_back(each.name + "|" + each.unit);
-  return out;
-}
-
-const std::string name_row = xlsx_row({"'time_s", "'current_A", "'position_mm"});
-
-std::string xlsx_book(const std::string& rows) {
-  return XlsxFile().sheet("Sheet1", rows).content();
-}
 
 TEST(XlsxTable, ReadsNamesAndNumbersOfASheet) {
   const std::string bytes = xlsx_book(name_row + xlsx_row({"0", "0.5", "1.25E-1"}) + xlsx_row({"0.001", "-6", "1e3"}));
@@ -203,14 +170,20 @@ TEST(XlsxTable, RefusesDatesAmongNumbers) {
               HasSubstr("'Sheet1'!A3: is a date or time, where the cells above are numbers"));
 }
 
-TEST(XlsxStyles, DistinguishesFormatsOfTimeFromOthers) {
-  for (const char* format : {"yyyy-mm-dd", "hh:mm:ss.000", "[h]:mm", "[ss].00", "[$-407]d. mmmm yyyy", "General\\ d"}) {
-    EXPECT_TRUE(shows_time(format)) << format;
+TEST(XlsxTable, RemarksBesideTheSamplesHideNoTable) {
+  const std::string names = xlsx_row({"'time_s", "'current_A", "'state"});
+  for (const auto& [first, second] : {std::pair{"'run", "'run"}, std::pair{"'begin", ""}, std::pair{"", "'stop"}}) {
+    const std::string bytes =
+        xlsx_book(names + xlsx_row({"0", "1", first}) + xlsx_row({"1", "2", second}) + xlsx_row({"2", "3", "'end"}));
+    EXPECT_THAT(xlsx_column(bytes, "current_A"), ElementsAre(1, 2, 3)) << first << second;
   }
-  for (const char* format : {"General", "0.00E+00", "#,##0.00", "0.0\" days\"", "[Red]0", "0\\d", "_d0", "[>100]0;d",
-                             "0 %", "@", "\"open", "["}) {
-    EXPECT_FALSE(shows_time(format)) << format;
-  }
+}
+
+TEST(XlsxTable, NamesTheSheetsThatAreHidden) {
+  XlsxFile file;
+  file.sheet("Data", name_row + xlsx_row({"0", "1", "2"}), " state=\"hidden\"").sheet("Notes", xlsx_row({"'none"}));
+  EXPECT_THAT(xlsx_refused(file.content()),
+              HasSubstr("(looked at 'Notes'; 'Data' is hidden and not read, show it in the program for sheets)"));
 }
 
 TEST(XlsxTable, ReadsTheFirstVisibleSheetThatHoldsATable) {
