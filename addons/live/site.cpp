@@ -28,9 +28,10 @@ std::string checked_id(const TomlTable& valve) {
   const bool plain = std::all_of(id.begin(), id.end(), [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.';
   });
-  if (!plain || id.size() > longest_valve_id) {
-    throw SiteError(fmt::format("{}: the id '{}' must be up to {} letters, digits, '_', '-' and '.'", valve.place("id"),
-                                id, longest_valve_id));
+  const bool dots = id.find_first_not_of('.') == std::string::npos;  // a step in the page's addresses
+  if (!plain || dots || id.size() > longest_valve_id) {
+    throw SiteError(fmt::format("{}: the id '{}' must be up to {} letters, digits, '_', '-' and '.'{}",
+                                valve.place("id"), id, longest_valve_id, dots ? ", and not dots alone" : ""));
   }
   return id;
 }
@@ -217,7 +218,7 @@ void read_parts(const TomlTable& top, SiteSettings& site) {
   if (const auto fleet = part("fleet")) site.fleet = read_publish(*fleet);
   if (const auto store = part("store")) {
     store->allow_only({"file", "keep_days", "largest_MB", "raw_before_s", "raw_after_s"});
-    site.store = beside(*store, store->text("file")).string();
+    if (const auto file = store->optional_text("file")) site.store = beside(*store, *file).string();
     site.retention.days = store->optional_positive("keep_days").value_or(site.retention.days);
     site.raw_before_s = raw_span_s(*store, "raw_before_s", site.raw_before_s);
     site.raw_after_s = raw_span_s(*store, "raw_after_s", site.raw_after_s);

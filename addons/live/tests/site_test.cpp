@@ -24,6 +24,15 @@ class SiteTest : public InFolder {
   }
 };
 
+TEST_F(SiteTest, MayNameItsStoreOnTheCommandLineAlone) {
+  write("site.toml",
+        "[store]\nkeep_days = 7\n[[valve]]\nid = \"a\"\nmodel = \"m.json\"\nsource = { kind = \"udp\" }\n"
+        "[sources]\nudp = \"127.0.0.1:0\"\n");
+  const SiteSettings site = read_site(path("site.toml"));
+  EXPECT_EQ(site.store, "");
+  EXPECT_EQ(site.retention.days, 7);
+}
+
 TEST_F(SiteTest, ReadsEveryKindOfSource) {
   write("site.toml", R"(
 [page]
@@ -102,6 +111,8 @@ TEST_F(SiteTest, SaysWhatIsWrongAndWhatToDo) {
   EXPECT_THAT(refused("source = { kind = \"rig\" }\nname = \"x\""), HasSubstr("unknown key 'name'"));
   write("site.toml", "[[valve]]\nid = \"../x\"\nmodel = \"m.json\"\nsource = { kind = \"rig\" }");
   EXPECT_THAT(refusal([&] { (void)read_site(path("site.toml")); }), HasSubstr("must be up to 32 letters, digits"));
+  write("site.toml", "[[valve]]\nid = \"..\"\nmodel = \"m.json\"\nsource = { kind = \"rig\" }");
+  EXPECT_THAT(refusal([&] { (void)read_site(path("site.toml")); }), HasSubstr("line 2: the id '..' must be"));
   write("site.toml", "[page]\n");
   EXPECT_THAT(refusal([&] { (void)read_site(path("site.toml")); }), HasSubstr("holds no valve"));
   const std::string rig = "source = { kind = \"rig\" }\n";
