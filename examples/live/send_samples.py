@@ -10,6 +10,7 @@ import csv
 import math
 import os
 import socket
+import statistics
 import struct
 import time
 import zlib
@@ -38,16 +39,36 @@ def main():
     parser.add_argument("--speed", type=float, default=1.0)
     parser.add_argument("--block", type=int, default=10, help="samples in a datagram")
     asked = parser.parse_args()
-    host, port = asked.address.rsplit(":", 1)
-
-    with open(asked.recording, newline="") as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    host, _, port = asked.address.rpartition(":")
+    if not host or not port.isdigit():
+        parser.error(f"{asked.address} is no address with a port; write it as 127.0.0.1:7700")
+    if len(asked.valve.encode()) > 32:
+        parser.error(f"the id {asked.valve} has {len(asked.valve.encode())} bytes; a valve's has up to 32")
+    if asked.speed <= 0 or not 1 <= asked.block <= 1000:
+        parser.error(f"--speed {asked.speed:g} must be above 0, --block {asked.block} 1 to 1000")
+    try:
+        with open(asked.recording, newline="") as file:
+            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    except OSError as failure:
+        parser.error(f"{asked.recording}: cannot be read: {failure.strerror}; check the path")
+    missing = [name for name in ("time_s", "current_A", "position_mm") if not rows or name not in rows[0]]
+    if missing or len(rows) < 2:
+        parser.error(f"{asked.recording}: lacks {', '.join(missing) or 'samples'}; needed are time_s, current_A and position_mm "
+                     "over two samples at least")
     present = [channel for channel in CHANNELS if channel[0] in rows[0]]
     mask = sum(1 << bit for _, bit, _ in present)
-    times = [float(row["time_s"]) for row in rows]
-    period_ns = round(1e9 * (times[-1] - times[0]) / (len(times) - 1))
     number = lambda text: float(text) if text else math.nan
-    samples = [[to_si(number(row[name])) for name, _, to_si in present] for row in rows]
+    try:
+        times = [float(row["time_s"]) for row in rows]
+        samples = [[to_si(number(row[name])) for name, _, to_si in present] for row in rows]
+    except (TypeError, ValueError) as failure:
+        parser.error(f"{asked.recording}: {failure}; a cell is a number, or empty where it is missing")
+    period_s = statistics.median(late - early for early, late in zip(times, times[1:]))
+    uneven = next((k for k in range(1, len(times)) if abs(times[k] - times[k - 1] - period_s) > 0.5 * period_s), None)
+    if uneven is not None or period_s <= 0:
+        parser.error(f"{asked.recording}, sample {(uneven or 1) + 1}: is {times[uneven or 1] - times[(uneven or 1) - 1]:g} s from the one "
+                     f"before, others {period_s:g} s; a datagram's samples are evenly apart: send the parts one by one")
+    period_ns = round(1e9 * (times[-1] - times[0]) / (len(times) - 1))
 
     out = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     session = int.from_bytes(os.urandom(4), "little")

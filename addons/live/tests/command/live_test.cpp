@@ -3,9 +3,12 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <sys/resource.h>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -121,6 +124,20 @@ TEST_F(Live, TheExamplesSendersAreUnderstood) {
             0);
   EXPECT_EQ(comes(1500), 1500);
   EXPECT_GT(kept("SELECT max(flow_max) FROM second"), 0);
+}
+
+TEST_F(Live, TheExamplesSenderSendsNoHalfSamples) {
+  write("whole.csv", "time_s,current_a_A,current_b_A,position_mm\n0,0,1,1\n0.001,0,1,1\n");
+  write("gap.csv", "time_s,current_A,position_mm\n0,1,1\n0.001,1,1\n0.002,1,1\n0.5,1,1\n");
+  for (const auto& [file, said] :
+       {std::pair{"whole.csv", "lacks current_A"}, std::pair{"gap.csv", "sample 4: is 0.498 s from the one before"}}) {
+    const int status = std::system(fmt::format("'{0}/live/send_samples.py' '{1}/{2}' v 127.0.0.1:9 2> '{1}/said.txt'",
+                                               SPOOLFLOW_EXAMPLES, folder.string(), file)
+                                       .c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 2) << file;
+    std::ifstream text(folder / "said.txt");
+    EXPECT_THAT(std::string(std::istreambuf_iterator<char>(text), {}), HasSubstr(said));
+  }
 }
 
 TEST_F(Live, WhatCannotBeUsedIsRefusedAtOnce) {
