@@ -38,7 +38,7 @@ InputBytes::InputBytes(const std::filesystem::path& file)
   if (::fstat(descriptor_, &status) == 0) {
     if (S_ISDIR(status.st_mode)) {
       if (owned_) ::close(descriptor_);
-      throw RecordingError(fmt::format("{}: is a folder; name a recording in it", name_));
+      throw RecordingError(fmt::format("{}: is a folder; name a file in it", name_));
     }
     if (S_ISREG(status.st_mode)) size_ = static_cast<std::uint64_t>(status.st_size);
   }
