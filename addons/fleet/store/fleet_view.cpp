@@ -77,9 +77,11 @@ std::vector<live::Event> fleet_events(Session& session, const std::string& valve
 
 std::vector<live::FlowPoint> flow_days(Session& session, std::int64_t valve, const live::Span& span) {
   const Rows rows = session.run(
+      "WITH lasting AS (SELECT *, time_s - lag(time_s) OVER (ORDER BY wall_ms) AS since_s FROM second "
+      "WHERE valve = $1 AND wall_ms >= $2 AND wall_ms < $3) "
       "SELECT avg(wall_ms)::bigint, avg(flow_mean), min(flow_min), max(flow_max), min(lower_min), max(upper_max), "
-      "avg(energy_J) FROM second WHERE valve = $1 AND wall_ms >= $2 AND wall_ms < $3 GROUP BY wall_ms / $4::bigint "
-      "ORDER BY 1",
+      "sum(energy_J) / sum(CASE WHEN since_s > 0 AND since_s <= 0.01 * samples THEN since_s ELSE 1 END) "
+      "FROM lasting GROUP BY wall_ms / $4::bigint ORDER BY 1",
       Values().put(valve).put(span.from_ms).put(span.to_ms).put(live::point_width_ms(span, live::least_flow_width_ms)));
   std::vector<live::FlowPoint> out;
   for (int row = 0; row < rows.size(); ++row) {

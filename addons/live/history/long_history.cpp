@@ -45,10 +45,14 @@ std::vector<FlowPoint> read_flow(const std::string& path, const std::string& val
   Database database = open_store_to_read(path);
   const auto number = number_of(database, valve);
   if (!number) return {};
+  // A row holds what came in one second of the clock: of a source that lags, or replays, other than one of its own.
   Statement rows(database,
+                 "WITH lasting AS (SELECT *, time_s - lag(time_s) OVER (ORDER BY wall_ms) AS since_s FROM second "
+                 "WHERE valve = ? AND wall_ms >= ? AND wall_ms < ?) "
                  "SELECT CAST(avg(wall_ms) AS INTEGER), avg(flow_mean), min(flow_min), max(flow_max), min(lower_min), "
-                 "max(upper_max), avg(energy_J) FROM second WHERE valve = ? AND "
-                 "wall_ms >= ? AND wall_ms < ? GROUP BY wall_ms / ? ORDER BY 1");
+                 "max(upper_max), "
+                 "sum(energy_J) / sum(CASE WHEN since_s > 0 AND since_s <= 0.01 * samples THEN since_s ELSE 1 END) "
+                 "FROM lasting GROUP BY wall_ms / ? ORDER BY 1");
   rows.put(*number).put(span.from_ms).put(span.to_ms).put(point_width_ms(span, least_flow_width_ms));
   std::vector<FlowPoint> out;
   while (rows.next()) {

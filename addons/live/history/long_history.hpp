@@ -33,7 +33,9 @@ struct FlowPoint {
   std::int64_t wall_ms;
   double mean_m3_per_s, smallest_m3_per_s, largest_m3_per_s;
   double lower_m3_per_s, upper_m3_per_s;  ///< outermost ends of the 95 % band
-  double power_W;                         ///< hydraulic, through the edge, over the seconds that have rows
+  /// Hydraulic, through the edge, over the time of the samples; a row behind a gap, of steps of more than 10 ms on
+  /// average, counts as a second.
+  double power_W;
 };
 [[nodiscard]] std::vector<FlowPoint> read_flow(const std::string& path, const std::string& valve, const Span& span);
 

@@ -99,6 +99,30 @@ TEST_F(Days, AreThinnedWithoutLosingPeaks) {
   EXPECT_EQ(read_indicators(path("s.sqlite"), "a", hour)["friction_ratio"].size(), 60U);  // never more than there are
 }
 
+TEST_F(Days, HavePowerOverTheTimeOfTheSamplesHoweverFastTheyCame) {
+  Store store(path("s.sqlite"));
+  std::vector<Event> none;
+  double time_s = 0;
+  for (int row = 0; row < 60; ++row) {  // 2 kW; from the middle on eight seconds a row, as after a disk was full
+    const double lasts_s = row < 30 ? 1 : 8;
+    time_s += lasts_s;
+    ValveCommit valve;
+    valve.state = {"a", 7, 1000, 1000, 5, "layout", {std::byte{1}}};
+    valve.since_last = {.samples = static_cast<std::int64_t>(1000 * lasts_s),
+                        .time_s = time_s,
+                        .flow_min_m3_per_s = 1e-3,
+                        .flow_mean_m3_per_s = 1e-3,
+                        .flow_max_m3_per_s = 1e-3,
+                        .lower_min_m3_per_s = 1e-3,
+                        .upper_max_m3_per_s = 1e-3,
+                        .energy_J = 2000 * lasts_s,
+                        .status = 0};
+    store.commit({begin_ms + row * 1000, row * 1000}, {valve}, none);
+  }
+  for (const FlowPoint& point : read_flow(path("s.sqlite"), "a", {begin_ms, begin_ms + minute_ms, 10}))
+    EXPECT_NEAR(point.power_W, 2000, 1e-9) << point.wall_ms;
+}
+
 TEST_F(Days, AMinuteIsReadWithoutTheDaysAroundIt) {
   keep_a_day();
   Database(path("s.sqlite"), Database::Access::write)
