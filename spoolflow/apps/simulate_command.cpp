@@ -9,6 +9,7 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/terminal/output_file.hpp"
 #include "spoolflow/apps/terminal/progress.hpp"
+#include "spoolflow/recording/written_tables/table_format.hpp"
 #include "spoolflow/rig/bench/recording_file.hpp"
 #include "spoolflow/rig/bench/scenario.hpp"
 
@@ -22,6 +23,7 @@ void simulate(const SimulateArguments& arguments) {
     truth = std::make_unique<OutputFile>(arguments.truth,
                                          std::vector<std::filesystem::path>{inputs[0], inputs[1], arguments.recording});
   }
+  for (const std::string& output : {arguments.recording, arguments.truth}) recording::refuse_other_than_csv(output);
   const rig::PlannedScenario planned = rig::plan(scenario);
   rig::Simulation simulation;
   {

@@ -60,6 +60,12 @@ TEST_F(WrongOutput, FolderAsAFile) {
   expect_refused("estimate model.json run.h5 -o .", "it is a folder");
 }
 
+TEST_F(WrongOutput, NoFileIsOtherThanItsNameSays) {
+  const std::string simulate = "simulate '" SPOOLFLOW_EXAMPLES "/scenarios/ramp.toml' -o ";
+  expect_refused(simulate + "run.parquet", "cannot write run.parquet: this is written as CSV alone");
+  expect_refused(simulate + "run.csv --truth truth.XLSX", "cannot write truth.XLSX: this is written as CSV alone");
+}
+
 TEST_F(WrongOutput, FullDisk) {
   expect_refused("estimate model.json run.h5 -o /dev/full", "the disk is full");
   expect_refused("estimate model.json run.h5 -o - > /dev/full", "the disk is full");

@@ -2,8 +2,10 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <sqlite3.h>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -44,6 +46,9 @@ void Database::refuse(int code) const {
 
 Database::Database(std::string path, Access access) : path_(std::move(path)) {
   sqlite3* opened = nullptr;
+  std::error_code unreadable;
+  if (std::filesystem::is_directory(path_, unreadable))
+    throw StoreError(fmt::format("{}: is a folder; name a store in it", path_));
   const int flags = access == Access::write ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READONLY;
   const int code = sqlite3_open_v2(path_.c_str(), &opened, flags | SQLITE_OPEN_NOMUTEX, nullptr);
   handle_.reset(opened);

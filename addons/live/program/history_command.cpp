@@ -15,8 +15,10 @@
 #include "addons/live/valve/utc_text.hpp"
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/terminal/output_file.hpp"
+#include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/estimation/status_text.hpp"
 #include "spoolflow/recording/files/csv_writer.hpp"
+#include "spoolflow/recording/written_tables/table_format.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::apps {
@@ -24,7 +26,7 @@ namespace {
 
 struct HistoryArguments {
   std::string store, valve, from, to, output;
-  std::int64_t recording = 0;  ///< of raw samples; 0: the history
+  std::optional<std::int64_t> recording{};  ///< of raw samples; none: the history
 };
 
 /// Milliseconds since 1970 of "2026-11-22", "2026-11-22T10:30", "2026-11-22T10:30:00Z" (all UTC) or seconds since 1970.
@@ -32,7 +34,10 @@ std::int64_t instant_ms(const std::string& text, const char* option) {
   const char* const last = text.c_str() + text.size();
   for (const char* form : {"%Y-%m-%dT%H:%M:%SZ", "%Y-%m-%dT%H:%M:%S", "%Y-%m-%dT%H:%M", "%Y-%m-%d"}) {
     std::tm parts{};
-    if (::strptime(text.c_str(), form, &parts) == last) return std::int64_t{1000} * ::timegm(&parts);
+    if (::strptime(text.c_str(), form, &parts) != last) continue;
+    const int day = parts.tm_mday;
+    const std::int64_t seconds = ::timegm(&parts);  // which makes of February 30 a day of March
+    if (parts.tm_mday == day) return 1000 * seconds;
   }
   char* end = nullptr;
   const double seconds = std::strtod(text.c_str(), &end);
@@ -43,12 +48,12 @@ std::int64_t instant_ms(const std::string& text, const char* option) {
 
 /// Raw samples that were kept around an alarm.
 void raw_samples(const HistoryArguments& arguments) {
-  const auto recording = live::read_recording(arguments.store, arguments.recording);
+  const auto recording = live::read_recording(arguments.store, *arguments.recording);
   if (!recording) {
     throw std::invalid_argument(
         fmt::format("{}: holds no recording {}; /api/v1/recordings of spoolflow live lists them, "
                     "and its events name them",
-                    arguments.store, arguments.recording));
+                    arguments.store, *arguments.recording));
   }
   OutputFile output(arguments.output, {arguments.store});
   output.stream() << recording->csv;
@@ -56,7 +61,11 @@ void raw_samples(const HistoryArguments& arguments) {
 }
 
 void history(const HistoryArguments& arguments) {
-  if (arguments.recording != 0) {
+  recording::refuse_other_than_csv(arguments.output);
+  if (arguments.recording) {
+    if (!arguments.valve.empty() || !arguments.from.empty() || !arguments.to.empty())
+      throw std::invalid_argument(
+          "--recording names raw samples of one valve and time; leave --valve, --from and --to away");
     raw_samples(arguments);
     return;
   }
@@ -67,6 +76,7 @@ void history(const HistoryArguments& arguments) {
   const std::int64_t to_ms = arguments.to.empty() ? all : instant_ms(arguments.to, "--to");
   if (from_ms >= to_ms) throw std::invalid_argument("--from must lie before --to");
   OutputFile output(arguments.output, {arguments.store});
+  std::uint64_t rows = 0;
   {
     recording::CsvWriter writer(output.stream());
     writer.header({"time_utc", "time_s", "samples", "flow_min_L_min", "flow_mean_L_min", "flow_max_L_min",
@@ -84,10 +94,12 @@ void history(const HistoryArguments& arguments) {
       writer.number(of.energy_J, 3);
       writer.text(status_text(static_cast<sensor::Status>(of.status)));
       writer.end_row();
+      ++rows;
     });
     writer.flush();
   }
   output.commit();
+  if (rows == 0) say_line(fmt::format("note: {} keeps nothing of {} in that time", arguments.store, arguments.valve));
 }
 
 }  // namespace

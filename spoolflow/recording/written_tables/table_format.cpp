@@ -49,4 +49,14 @@ TableFormat table_format_of(const std::filesystem::path& file) {
                   file.string(), extension));
 }
 
+void refuse_other_than_csv(const std::filesystem::path& file) {
+  const std::string extension = file.extension().string();
+  const std::string name =
+      small_letters(extension.empty() ? std::string_view() : std::string_view(extension).substr(1));
+  const auto format = table_format(name);
+  if (format ? *format == TableFormat::csv : std::ranges::find(promises, name) == promises.end()) return;
+  throw std::invalid_argument(
+      fmt::format("cannot write {}: this is written as CSV alone; name a file that ends in .csv", file.string()));
+}
+
 }  // namespace spoolflow::recording

@@ -19,5 +19,7 @@ inline constexpr std::array all_table_formats{TableFormat::csv, TableFormat::par
 /// By the file's suffix. CSV where the name has none or one that promises nothing; throws std::invalid_argument where
 /// it promises another format (.xlsx, .tdms, .mf4), so that no file is other than its name says.
 [[nodiscard]] TableFormat table_format_of(const std::filesystem::path& file);
+/// For what is written as CSV alone: throws std::invalid_argument where the file's suffix promises another format.
+void refuse_other_than_csv(const std::filesystem::path& file);
 
 }  // namespace spoolflow::recording

@@ -83,6 +83,18 @@ TEST_F(Live, HistoryIsWhatCame) {
   const Answer other = run("history s.sqlite --valve w -o -");
   EXPECT_EQ(other.status, 2);
   EXPECT_THAT(other.message, HasSubstr("knows no valve 'w'; it knows: v"));
+  EXPECT_THAT(run("history s.sqlite --valve v --to 2020-01-01 -o -").message,
+              HasSubstr("keeps nothing of v in that time"));
+  for (const auto& [asked, said] : {std::pair{"--recording 1 --valve v -o -", "leave --valve, --from and --to away"},
+                                    std::pair{"--recording 0 -o -", "holds no recording 0"},
+                                    std::pair{"--valve v -o v.parquet", "written as CSV alone"},
+                                    std::pair{"--valve v -o v.xlsx", "written as CSV alone"},
+                                    std::pair{"--valve v --from 2026-02-30 -o -", "no instant"}}) {
+    const Answer refused = run(std::string("history s.sqlite ") + asked);
+    EXPECT_EQ(refused.status, 2) << asked;
+    EXPECT_THAT(refused.message, HasSubstr(said)) << asked;
+  }
+  EXPECT_THAT(run("history . --valve v -o -").message, HasSubstr("is a folder; name a store in it"));
   EXPECT_EQ(run("history s.sqlite --valve v --from yesterday -o -").status, 2);
   EXPECT_EQ(run("history model.json --valve v -o -").status, 2);
 }
