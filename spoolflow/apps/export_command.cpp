@@ -100,6 +100,15 @@ bool names_valve(const std::string& name) {
   return name.ends_with(".toml") || std::find(presets.begin(), presets.end(), name) != presets.end();
 }
 
+/// Of what is neither: a model is asked for, and a valve may be meant.
+void refuse_missing(const std::string& model_or_valve) {
+  if (fs::exists(model_or_valve)) return;
+  throw std::invalid_argument(fmt::format(
+      "{}: is no file and no valve of the virtual rig; give a model from `spoolflow calibrate`, a valve file "
+      "(TOML), or one of {}",
+      model_or_valve, fmt::join(rig::valve_presets(), ", ")));
+}
+
 exports::FmiVersion fmi_version(const ExportArguments& arguments) {
   return arguments.fmi == "3" ? exports::FmiVersion::fmi3 : exports::FmiVersion::fmi2;
 }
@@ -135,6 +144,7 @@ void export_fmu(const ExportArguments& arguments) {
     output.commit();
     return;
   }
+  refuse_missing(arguments.model);
   const model::Model model = asked_model(arguments);
   OutputFile output(arguments.output, {arguments.model});
   output.stream() << exports::sensor_fmu(model, version, tool_version());

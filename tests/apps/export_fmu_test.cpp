@@ -37,6 +37,10 @@ TEST_F(ExportFmu, TakesAPresetOrAValveFileForTheVirtualValve) {
     EXPECT_THAT(content("valve.fmu"), HasSubstr("binaries/win64/spoolflow_valve.dll"));
   }
   write("wrong.toml", "[plant.load]\nkind = \"balloon\"\n");
+  const Answer missing = run("export fmu size_7 -o other.fmu");
+  EXPECT_EQ(missing.status, 2);
+  EXPECT_THAT(missing.message, HasSubstr("size_7: is no file and no valve of the virtual rig"));
+  EXPECT_THAT(missing.message, HasSubstr("or one of size_6, size_10"));
   const Answer answer = run("export fmu wrong.toml -o other.fmu");
   EXPECT_EQ(answer.status, 2);
   EXPECT_THAT(answer.message, AllOf(HasSubstr("wrong.toml"), HasSubstr("balloon")));
