@@ -380,11 +380,16 @@ test('a valve says how old its model is, what references moved it to, and how fa
     tool: 'spoolflow 0.1.0', created: ago(days), adapted_from: '0'.repeat(64), files: [], corrections: [],
     reasons: [`edge width ${width}`], wear: { edge_width: width, friction_ratio: friction, position_zero_m: zero_m, flow_share: 0.01, friction_share: 0.05 },
   });
+  const long = 'W'.repeat(32);  // the longest id, in one word
   model.provenance.adaptations = [look(200, 0.02, 1, 0), look(100, 0.04, 1.1, 5e-6), look(3, 0.06, 1.25, 9e-6)];
   writeFileSync(join(folder, 'moved.json'), JSON.stringify(model));
   writeFileSync(join(folder, 'moved.toml'), '[page]\nlisten = "127.0.0.1:0"\n[[valve]]\nid = "moved"\nmodel = "moved.json"\n' +
-    'source = { kind = "rig" }\n[[valve]]\nid = "fresh"\nmodel = "model.json"\nsource = { kind = "rig" }\n');
+    `source = { kind = "rig" }\n[[valve]]\nid = "${long}"\nmodel = "model.json"\nsource = { kind = "rig" }\n`);
   const own = await start('moved.toml');
+  const fits = async (page, what) => {
+    const [content, window] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+    assert.ok(content <= window, `${what}: ${content} px of content in ${window} px`);
+  };
   for (const width of [390, 1280]) {
     const { page, complaints } = await opened('#/valve/moved', { url: own.url, width, height: 844 });
     const section = page.locator('section:has(> h3:text-is("Model"))');
@@ -395,11 +400,14 @@ test('a valve says how old its model is, what references moved it to, and how fa
     assert.match(rows[0], /drift in 30 days.*\+0\.\d ± \d/);
     assert.match(rows[1], /\+6\.0\+25\.0\+9\.0$/);
     await section.scrollIntoViewIfNeeded();
-    const [content, window] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
-    assert.ok(content <= window, `${content} px of content at ${width} px`);
+    await fits(page, 'the valve beside one of a long id');
     if (pictures) await section.screenshot({ path: join(pictures, `live_model_${width}.png`) });
-    await page.goto(`${own.url}/#/valve/fresh`);
+    await page.goto(`${own.url}/#/valve/${long}`);
     await page.waitForSelector('p:has-text("references have not looked at it since")');
+    await fits(page, 'the valve of a long id');
+    await page.goto(`${own.url}/#/site`);
+    await page.waitForSelector(`.sources td:has-text("${long}")`);
+    await fits(page, 'the site');
     assert.deepEqual(complaints, []);
     await page.context().close();
   }

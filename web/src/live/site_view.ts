@@ -48,7 +48,7 @@ export class SiteView {
   readonly place = element('div', '');
   private readonly tiles = {
     flow: new Tile('L/min through all valves'), power: new Tile('kW hydraulic through their edges'),
-    energy: new Tile('kWh since the store began'), good: new Tile('valves good'), alarms: new Tile('alarms not acknowledged'),
+    energy: new Tile('kWh counted'), good: new Tile('valves good'), alarms: new Tile('alarms not acknowledged'),
     stalled: new Tile('sources without samples'),
   };
   private readonly sources = element('tbody', '');
