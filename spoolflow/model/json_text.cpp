@@ -23,6 +23,12 @@ void require_json_limits(const std::string& text, const std::string& file) {
     throw ModelError(
         fmt::format("{}: is larger than {} MiB; give a file that spoolflow wrote", file, largest_json_bytes >> 20));
   }
+  if (text.find('\0') != std::string::npos) {
+    throw ModelError(
+        fmt::format("{}: is no text, and what spoolflow writes as JSON is; of a flash page or an FMU give the "
+                    "model that it was made of",
+                    file));
+  }
   std::size_t line = 1, depth = 0;
   bool quoted = false;
   for (std::size_t at = 0; at < text.size(); ++at) {

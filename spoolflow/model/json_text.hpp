@@ -14,7 +14,7 @@ inline constexpr std::size_t deepest_json = 64;                           ///< o
 /// The whole text of a file, as far as it may be long: one byte beyond the limit where it is longer.
 [[nodiscard]] std::string read_json_text(std::istream& in);
 
-/// Throws ModelError where the text is longer or nests deeper than the limits; text in quotes does not count.
+/// Throws ModelError where it is no text, or longer or nests deeper than the limits; text in quotes does not count.
 void require_json_limits(const std::string& text, const std::string& file);
 
 /// Within these limits; is_discarded() where it is no JSON. Compiled here alone: a parser takes seconds of a build.

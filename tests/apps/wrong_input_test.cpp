@@ -206,6 +206,8 @@ TEST_F(WrongInput, ModelFileCutShort) {
   expect_model_refused(whole.substr(0, whole.size() / 2), {"bad.json", "cut short"});
   expect_model_refused("", {"bad.json", "empty"});
   expect_refused("estimate run.csv run.csv -o out", {"run.csv", "not valid JSON"});
+  expect_model_refused(std::string("SFLWPARM\0\0\1", 11),
+                       {"bad.json", "is no text", "of a flash page or an FMU give the model"});
 }
 
 TEST_F(WrongInput, ModelFileOfAnotherVersion) {

@@ -1,4 +1,5 @@
 """Input that cannot be used: an exception with the words of the command line, or one that names the argument."""
+import copy
 import pathlib
 import unittest
 
@@ -147,6 +148,11 @@ class Refusal(examples.InAFolder):
         ):
             with self.assertRaisesRegex(spoolflow.Error, "^" + words):
                 sensor.step(**sample)
+
+    def test_of_a_copy_says_that_two_would_share_the_memory(self):
+        for copied in (copy.copy, copy.deepcopy):
+            with self.assertRaises(TypeError):
+                copied(examples.model().sensor())
 
     def test_of_a_missing_file_is_also_that_of_python(self):
         gone = self.folder / "gone"

@@ -71,6 +71,9 @@ class Sensor:
         self._sensor.reset()
         self._clock = Clock()
 
+    def __copy__(self) -> "Sensor":
+        raise TypeError("a sensor's memory is not copied, and two would share it; make another with model.sensor()")
+
     def __repr__(self) -> str:
         return f"<Sensor of {self.model.name}: {self.estimator}>"
 
