@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <memory>
 #include <numeric>
 
@@ -53,7 +52,7 @@ void print_condition(const monitor::Monitor& watch, const model::Model& model) {
 }
 
 void add(std::vector<std::string>& to, const std::vector<plausibility::Finding>& findings) {
-  for (const plausibility::Finding& finding : findings) to.push_back(finding.text);
+  for (const plausibility::Finding& finding : findings) to.push_back(doubt_text(finding));
 }
 
 /// "good" of a valve of which nothing was judged says only that no status speaks against it.
@@ -66,22 +65,8 @@ void say_what_was_not_judged(const monitor::Monitor& watch) {
 }
 
 void say_doubts(const std::vector<std::string>& doubts, const monitor::Monitor& watch) {
-  for (const std::string& doubt : doubts)
-    say("spoolflow: doubt: {}; what is raised may be the recording's and not the valve's\n", doubt);
+  for (const std::string& doubt : doubts) say_line(doubt);
   say_what_was_not_judged(watch);
-}
-
-/// The same strokes twice are no more evidence than once. Pipes cannot be read twice, and are passed over.
-void refuse_given_twice(const std::vector<std::string>& recordings) {
-  std::map<std::string, std::string> given;  // sha256 to file
-  for (const std::string& file : recordings) {
-    if (!std::filesystem::is_regular_file(file)) continue;
-    const auto [first, is_new] = given.emplace(model::sha256_of_file(file), file);
-    if (is_new) continue;
-    throw model::ModelError(
-        fmt::format("{}: holds the same as {}, and counts once; leave it out, or name a recording of other strokes",
-                    file, first->second));
-  }
 }
 
 void refuse_unusable(const MonitorArguments& arguments) {
@@ -125,7 +110,7 @@ void monitor_recordings(const MonitorArguments& arguments) {
   std::vector<report::MonitoredRun> runs;
   std::vector<report::TrendPoint> trend;
   BandWatch band;
-  std::vector<std::string> doubts;
+  std::vector<std::string> doubts, as_read;
   const auto total = static_cast<double>(arguments.recordings.size());
   {
     Progress progress("monitoring", arguments.quiet);
@@ -141,13 +126,16 @@ void monitor_recordings(const MonitorArguments& arguments) {
         const auto show = [&](std::optional<double> share) {
           if (share) progress.update((before + *share) / total);
         };
-        add(doubts, monitor_recording(model, recording, channels, watch, trend, band, show));
+        const WatchedRecording watched = monitor_recording(model, recording, channels, watch, trend, band, show);
+        add(doubts, watched.findings);
+        if (!watched.as_read.empty()) as_read.push_back(fmt::format("{}: {}", recording, watched.as_read));
       }
       runs.push_back(
           {std::filesystem::path(recording).stem().string(), watch.condition(), watch.causes(), watch.indicators()});
       samples.push_back(watch.usage().samples - std::accumulate(samples.begin(), samples.end(), std::uint64_t{0}));
     }
   }
+  for (const std::string& note : as_read) say("{}\n", note);
   say_doubts(doubts, watch);
   if (corrected) write_corrected(corrected->stream(), arguments, {model, {}, {}, samples, {}}, watch);
   if (page) report::write_monitor_report(page->stream(), model, watch, runs, trend, units);

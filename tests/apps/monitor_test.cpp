@@ -61,6 +61,15 @@ TEST_F(Monitor, AValveOfWhichNothingWasJudgedIsNotCalledGoodInSilence) {
   EXPECT_THAT(answer.message, HasSubstr("position zero were not judged: 0 s of operation hold no cycle"));
 }
 
+TEST_F(Monitor, AColumnThatMayBeMeantIsNotLeftOutInSilence) {
+  std::string text = "time_s,current_A,U_coil_V,position_mm,oil_temperature_C\n";
+  for (int k = 0; k < 200; ++k) text += fmt::format("{:.3f},1,{},1,50\n", 1e-3 * k, 3 + 1e-3 * (k % 3));
+  write("short.csv", text);
+  const Answer answer = run("monitor " + model + " short.csv --json out.json -q");
+  ASSERT_EQ(answer.status, 0) << answer.message;
+  EXPECT_THAT(answer.message, HasSubstr("short.csv: column 'U_coil_V' is not read: if it is voltage, name it"));
+}
+
 TEST_F(Monitor, ARecordingThatCannotBeSoundIsNamedBesideWhatItRaises) {
   std::string text = "time_s,current_A,voltage_V,position_mm,oil_temperature_C\n";
   for (int k = 0; k < 30'000; ++k) {

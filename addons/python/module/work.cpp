@@ -35,8 +35,13 @@ using Path = std::filesystem::path;
 struct Judgement {
   std::string figures;
   std::optional<std::string> page;
-  std::optional<std::string> more{};  ///< a model file's text; which columns had a time of their own
-  [[nodiscard]] py::tuple tuple() const { return py::make_tuple(figures, page, more); }
+  std::optional<std::string> more{};  ///< a model file's text, a verdict
+  std::vector<std::string> notes{};   ///< of recordings as they were read: columns on another time, or not read
+  [[nodiscard]] py::tuple tuple() const { return py::make_tuple(figures, page, more, notes); }
+
+  void note(const Path& recording, const std::string& as_read) {
+    if (!as_read.empty()) notes.push_back(recording.string() + ": " + as_read);
+  }
 };
 
 recording::ChannelMap channel_map(const std::optional<Path>& file) {
@@ -63,10 +68,12 @@ py::tuple validate(const SharedModel& kept, const std::vector<Path>& recordings,
            if (requirements) options.requirements = validation::read_requirements(*requirements);
            const validation::Validation found =
                validation::validate(model, recordings, options, [&](double share) { check(progress, share); });
-           return Judgement{text_of([&](std::ostream& json) { report::write_metrics(json, model, found); }),
-                            page_of(units, [&](std::ostream& page, const report::ReaderUnits& in) {
-                              report::write_validation_report(page, model, found, others, in);
-                            })};
+           Judgement out{text_of([&](std::ostream& json) { report::write_metrics(json, model, found); }),
+                         page_of(units, [&](std::ostream& page, const report::ReaderUnits& in) {
+                           report::write_validation_report(page, model, found, others, in);
+                         })};
+           for (std::size_t k = 0; k < found.runs.size(); ++k) out.note(recordings.at(k), found.runs[k].resampled);
+           return out;
          })
       .tuple();
 }
@@ -82,12 +89,17 @@ py::tuple monitor_recordings(const SharedModel& kept, const std::vector<Path>& r
            apps::MonitoredRuns done;
            apps::Monitored from{model, model::sha256_of_text(kept->text), recordings, {}, SPOOLFLOW_VERSION};
            std::uint64_t before_it = 0;
+           std::vector<std::string> files;
+           for (const Path& recording : recordings) files.push_back(recording.string());
+           apps::refuse_given_twice(files);
+           std::vector<apps::WatchedRecording> watched;
            for (const Path& recording : recordings) {
              const auto report_share = [&](std::optional<double> share) {
                const auto before = static_cast<double>(done.runs.size());
                check(progress, (before + share.value_or(0)) / static_cast<double>(recordings.size()));
              };
-             apps::monitor_recording(model, recording.string(), map, watch, done.trend, done.band, report_share);
+             watched.push_back(
+                 apps::monitor_recording(model, recording.string(), map, watch, done.trend, done.band, report_share));
              done.runs.push_back({recording.stem().string(), watch.condition(), watch.causes(), watch.indicators()});
              from.samples.push_back(watch.usage().samples - before_it);
              before_it = watch.usage().samples;
@@ -98,6 +110,11 @@ py::tuple monitor_recordings(const SharedModel& kept, const std::vector<Path>& r
                          page_of(units, [&](std::ostream& page, const report::ReaderUnits& in) {
                            report::write_monitor_report(page, model, watch, done.runs, done.trend, in);
                          })};
+           for (std::size_t k = 0; k < recordings.size(); ++k) {
+             out.note(recordings[k], watched[k].as_read);
+             for (const plausibility::Finding& finding : watched[k].findings)
+               out.notes.push_back(apps::doubt_text(finding));
+           }
            if (adapt) out.more = apps::readable_text(apps::corrected_model(from, watch), "the corrected model");
            return out;
          })
@@ -161,12 +178,12 @@ py::tuple analyse(const SharedModel& kept, const AnalysisRequest& asked, const P
              };
              results.study = analysis::global_study(model, results.scenario, *valve, work);
            }
-           return Judgement{text_of([&](std::ostream& json) { report::write_analysis_json(json, model, results); }),
-                            page_of(units,
-                                    [&](std::ostream& page, const report::ReaderUnits& in) {
-                                      report::write_analysis_report(page, model, results, in);
-                                    }),
-                            run ? run->resampled : ""};
+           Judgement out{text_of([&](std::ostream& json) { report::write_analysis_json(json, model, results); }),
+                         page_of(units, [&](std::ostream& page, const report::ReaderUnits& in) {
+                           report::write_analysis_report(page, model, results, in);
+                         })};
+           if (run) out.note(*asked.recording, run->resampled);
+           return out;
          })
       .tuple();
 }

@@ -47,6 +47,22 @@ class Work(examples.InAFolder):
         self.assertEqual(row["p95_percent_FS"], found.runs[0].estimators[-1].error.all.p95.percent_FS)
         self.assertEqual(found.to_dict()["version"], json.loads(figures.read_text())["version"])
 
+    def test_runs_are_judged_with_the_words_of_the_command(self):
+        run = spoolflow.read_recording(examples.RAMP)
+        table = {"time_s": run.time_s, "current_A": run.current_A, "position_m": run.position_m, "U_coil_V": run.voltage_V,
+                 "oil_temperature_K": run.oil_temperature_K, "flow_reference_m3_per_s": run.flow_reference_m3_per_s}
+        file = self.written("short.csv", "time_s,current_A,U_coil_V,position_mm,oil_temperature_C,flow_reference_L_min\n" + "".join(
+            f"{k / 1000},1,{3 + k % 3 / 1000},1,50,20\n" for k in range(200)))
+        for judge in (spoolflow.validate, spoolflow.monitor):
+            for given, called in ((table, "the run"), (file, str(file))):
+                with self.assertWarnsRegex(UserWarning, f"^{called}: column 'U_coil_V' is not read: if it is voltage"):
+                    judge(examples.model(), given)
+        with self.assertRaisesRegex(spoolflow.Error, r"^recordings\[1\]: holds the same as recordings\[0\], and counts once"):
+            spoolflow.monitor(examples.model(), [dict(run), dict(run)])
+        stuck = {**run, "current_A": np.full(run.samples, 1.0)}
+        with self.assertWarnsRegex(UserWarning, "^doubt: the run: current stands still .*; what is raised may be the recording's"):
+            spoolflow.monitor(examples.model(), stuck)
+
     def test_monitor_has_the_figures_of_the_command_and_goes_on_from_a_baseline(self):
         healthy = self.folder / "healthy.json"
         found = spoolflow.monitor(examples.MODEL, [examples.RAMP, examples.DUTY])

@@ -1,10 +1,15 @@
 #include "spoolflow/apps/work/monitored_recording.hpp"
 
+#include <filesystem>
 #include <fstream>
+#include <map>
+
+#include <fmt/format.h>
 
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/estimation/recordings/sensor_channels.hpp"
 #include "spoolflow/model/json_text.hpp"
+#include "spoolflow/model/provenance.hpp"
 #include "spoolflow/monitor/baseline.hpp"
 #include "spoolflow/plausibility/run_findings.hpp"
 
@@ -48,10 +53,26 @@ void BandWatch::take(const model::Model& model, const monitor::Monitor& watch, c
   figures_.widened_m3_per_s += wider.flow_upper_m3_per_s - wider.flow_lower_m3_per_s;
 }
 
-std::vector<plausibility::Finding> monitor_recording(const model::Model& model, const std::string& recording,
-                                                     const recording::ChannelMap& channels, monitor::Monitor& watch,
-                                                     std::vector<report::TrendPoint>& trend, BandWatch& band,
-                                                     const std::function<void(std::optional<double>)>& progress) {
+void refuse_given_twice(const std::vector<std::string>& recordings) {
+  std::map<std::string, std::string> given;  // sha256 to file
+  for (const std::string& file : recordings) {
+    if (!std::filesystem::is_regular_file(file)) continue;
+    const auto [first, is_new] = given.emplace(model::sha256_of_file(file), file);
+    if (is_new) continue;
+    throw model::ModelError(
+        fmt::format("{}: holds the same as {}, and counts once; leave it out, or name a recording of other strokes",
+                    file, first->second));
+  }
+}
+
+std::string doubt_text(const plausibility::Finding& finding) {
+  return fmt::format("doubt: {}; what is raised may be the recording's and not the valve's", finding.text);
+}
+
+WatchedRecording monitor_recording(const model::Model& model, const std::string& recording,
+                                   const recording::ChannelMap& channels, monitor::Monitor& watch,
+                                   std::vector<report::TrendPoint>& trend, BandWatch& band,
+                                   const std::function<void(std::optional<double>)>& progress) {
   recording::ReadOptions options = estimation::sensor_channels(model, channels);
   options.optional.push_back(recording::Channel::position_set);
   const auto reader = estimation::open_sensor_channels(recording, options);
@@ -73,7 +94,7 @@ std::vector<plausibility::Finding> monitor_recording(const model::Model& model, 
   }
   watch.finish();
   follow_trend(watch, trend);
-  return plausibility::run_findings(plausibility::known_valve(model), means, recording);
+  return {plausibility::run_findings(plausibility::known_valve(model), means, recording), reader->notes().resampled};
 }
 
 }  // namespace spoolflow::apps

@@ -39,11 +39,23 @@ struct MonitoredRuns {
   BandWatch band{};
 };
 
-/// One recording through sensor and watch. `progress` receives the share read, where it is known. What physics says
-/// against the recording: such indicators are not the valve's.
-std::vector<plausibility::Finding> monitor_recording(const model::Model& model, const std::string& recording,
-                                                     const recording::ChannelMap& channels, monitor::Monitor& watch,
-                                                     std::vector<report::TrendPoint>& trend, BandWatch& band,
-                                                     const std::function<void(std::optional<double>)>& progress);
+/// The same strokes twice are no more evidence than once: throws ModelError. Pipes cannot be read twice, and are passed
+/// over.
+void refuse_given_twice(const std::vector<std::string>& recordings);
+
+/// What is to be said of a recording that was watched.
+struct WatchedRecording {
+  std::vector<plausibility::Finding> findings;  ///< that speak against it: such indicators are not the valve's
+  std::string as_read;  ///< columns on another time, or not read (recording::ReadNotes); empty: nothing
+};
+
+/// "doubt: … ; what is raised may be the recording's and not the valve's".
+[[nodiscard]] std::string doubt_text(const plausibility::Finding& finding);
+
+/// One recording through sensor and watch. `progress` receives the share read, where it is known.
+WatchedRecording monitor_recording(const model::Model& model, const std::string& recording,
+                                   const recording::ChannelMap& channels, monitor::Monitor& watch,
+                                   std::vector<report::TrendPoint>& trend, BandWatch& band,
+                                   const std::function<void(std::optional<double>)>& progress);
 
 }  // namespace spoolflow::apps

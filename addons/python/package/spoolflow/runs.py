@@ -5,6 +5,7 @@ import contextlib
 import os
 import re
 import tempfile
+import warnings
 from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Mapping, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
@@ -91,6 +92,15 @@ class Files(NamedTuple):
     paths: List[str]
     #: the channel map that they need
     channels: Optional[str]
+    #: what those that were written down were called
+    names: Mapping[str, str]
+
+    def called(self, said: str) -> str:
+        """A message with the names that the caller knows."""
+        for path, name in self.names.items():
+            alone = rf"(?<![\w/.-]){re.escape(os.path.basename(path))}"
+            said = re.sub(alone, lambda _, name=name: name, said.replace(path, name))  # type: ignore[misc]
+        return said
 
 
 def _stem(run: Any, k: int) -> str:
@@ -122,14 +132,14 @@ def as_files(runs: Union[Run, Iterable[Run]], channels: Optional[Channels] = Non
             folder = kept.enter_context(tempfile.TemporaryDirectory(prefix="spoolflow-"))
             paths.append(os.path.join(folder, f"{_stem(run, k)}.csv"))
             written = run if isinstance(run, Recording) else as_recording(run, channels, name=called)
+            if written.resampled:
+                warnings.warn(f"{called}: {written.resampled}", stacklevel=4)
             names[paths[-1]] = called
             _native.write_recording(written._read, paths[-1])
         try:
-            yield Files(paths, map_file)
+            yield Files(paths, map_file, names)
         except _native.Error as failure:
-            said = str(failure)
-            for path, called in names.items():
-                said = said.replace(path, called)
+            said = Files(paths, map_file, names).called(str(failure))
             if said == str(failure):
                 raise
             raise _native.Error(said) from None

@@ -48,6 +48,12 @@ def _units(report: Optional[PathLike], units: Sequence[str]) -> Optional[List[st
     return None if report is None else [units] if isinstance(units, str) else list(units)
 
 
+def _warn(notes: Iterable[str], files: Files) -> None:
+    """Of recordings as they were read, by the names that they were given with."""
+    for note in notes:
+        warnings.warn(files.called(note), stacklevel=3)
+
+
 class Validation(JudgedFigures):
     """How good a model is on recordings with a reference flow: the figures of `validate --json`
     (docs/formats/metrics.md) by attributes.
@@ -119,9 +125,10 @@ def validate(model: AnyModel, recordings: Runs, *, channels: Optional[Channels] 
     runs = several_of(recordings)
     keep_apart({"report": report}, [model, *runs, requirements, *others, channels, environment])
     with naming_missing(*runs, requirements, *others, channels), as_files(runs, channels) as files:
-        figures, page, _ = apart.call(
+        figures, page, _, notes = apart.call(
             "validate", files.paths, known._kept, files.paths, files.channels, estimator, _path(requirements),
             reference_lag_s, apply_reference_lag, others, _units(report, units), progress=progress)
+    _warn(notes, files)
     if report is not None and page is not None:
         write_whole(report, page)
     return Validation(figures)
@@ -174,9 +181,10 @@ def monitor(model: AnyModel, recordings: Runs, *, baseline: Optional[PathLike] =
     runs = several_of(recordings)
     keep_apart({"adapt": adapt, "report": report}, [model, *runs, baseline, channels])
     with naming_missing(*runs, baseline, channels), as_files(runs, channels) as files:
-        figures, page, corrected = apart.call(
+        figures, page, corrected, notes = apart.call(
             "monitor", files.paths, known._kept, files.paths, files.channels, _path(baseline) or "",
             false_alarms_per_year, adapt is not None, _units(report, units), progress=progress)
+    _warn(notes, files)
     if adapt is not None:
         write_whole(adapt, corrected)
     if report is not None and page is not None:
@@ -263,12 +271,11 @@ def analyse(model: AnyModel, scenario: Optional[PathLike] = None, *, recording: 
         raise _native.Error("dither_shape, ripple_limit_percent: have a meaning beside dither=True alone; give it, too, or leave them away")
     with contextlib.ExitStack() as kept_files:
         kept_files.enter_context(naming_missing(scenario, recording, channels))
-        files = Files([], None) if recording is None else kept_files.enter_context(as_files([recording], channels))
-        figures, page, resampled = apart.call(
+        files = Files([], None, {}) if recording is None else kept_files.enter_context(as_files([recording], channels))
+        figures, page, _, notes = apart.call(
             "analyse", files.paths, kept, _path(scenario), samples, seed, study, workers, direction,
             next(iter(files.paths), None), files.channels, _units(report, units), progress=progress)
-    if resampled:
-        warnings.warn(f"{files.paths[0]}: {resampled}", stacklevel=2)
+    _warn(notes, files)
     if report is not None and page is not None:
         write_whole(report, page)
     return Analysis(figures)
@@ -276,7 +283,7 @@ def analyse(model: AnyModel, scenario: Optional[PathLike] = None, *, recording: 
 
 def _advise_dither(kept: "_native.Model", scenario: Optional[str], shape: str, ripple_limit_percent: float, workers: int,
                    direction: str, units: Optional[List[str]],
-                   others: Mapping[str, Any]) -> "tuple[str, Optional[str], Optional[str]]":
+                   others: Mapping[str, Any]) -> "tuple[str, Optional[str], Optional[str], List[str]]":
     for name, value in others.items():
         if value is not None:
             raise _native.Error(f"{name}: has no meaning beside dither; leave one of them away")
