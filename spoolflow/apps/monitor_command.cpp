@@ -51,9 +51,15 @@ void print_condition(const monitor::Monitor& watch, const model::Model& model) {
   for (const std::string& drift : monitor::drift_texts(model)) print("\ndrift {}\n", drift);
 }
 
-void add(std::vector<std::string>& to, const std::vector<plausibility::Finding>& findings) {
-  for (const plausibility::Finding& finding : findings) to.push_back(doubt_text(finding));
-}
+/// What is said of recordings beside the condition.
+struct Remarks {
+  std::vector<std::string> as_read, doubts;
+
+  void add(const std::string& recording, const WatchedRecording& watched) {
+    if (!watched.as_read.empty()) as_read.push_back(fmt::format("{}: {}", recording, watched.as_read));
+    for (const plausibility::Finding& finding : watched.findings) doubts.push_back(doubt_text(finding));
+  }
+};
 
 /// "good" of a valve of which nothing was judged says only that no status speaks against it.
 void say_what_was_not_judged(const monitor::Monitor& watch) {
@@ -64,8 +70,9 @@ void say_what_was_not_judged(const monitor::Monitor& watch) {
       watch.usage().driven_s);
 }
 
-void say_doubts(const std::vector<std::string>& doubts, const monitor::Monitor& watch) {
-  for (const std::string& doubt : doubts) say_line(doubt);
+void say_remarks(const Remarks& remarks, const monitor::Monitor& watch) {
+  for (const std::string& note : remarks.as_read) say("{}\n", note);
+  for (const std::string& doubt : remarks.doubts) say_line(doubt);
   say_what_was_not_judged(watch);
 }
 
@@ -110,7 +117,7 @@ void monitor_recordings(const MonitorArguments& arguments) {
   std::vector<report::MonitoredRun> runs;
   std::vector<report::TrendPoint> trend;
   BandWatch band;
-  std::vector<std::string> doubts, as_read;
+  Remarks remarks;
   const auto total = static_cast<double>(arguments.recordings.size());
   {
     Progress progress("monitoring", arguments.quiet);
@@ -126,17 +133,14 @@ void monitor_recordings(const MonitorArguments& arguments) {
         const auto show = [&](std::optional<double> share) {
           if (share) progress.update((before + *share) / total);
         };
-        const WatchedRecording watched = monitor_recording(model, recording, channels, watch, trend, band, show);
-        add(doubts, watched.findings);
-        if (!watched.as_read.empty()) as_read.push_back(fmt::format("{}: {}", recording, watched.as_read));
+        remarks.add(recording, monitor_recording(model, recording, channels, watch, trend, band, show));
       }
       runs.push_back(
           {std::filesystem::path(recording).stem().string(), watch.condition(), watch.causes(), watch.indicators()});
       samples.push_back(watch.usage().samples - std::accumulate(samples.begin(), samples.end(), std::uint64_t{0}));
     }
   }
-  for (const std::string& note : as_read) say("{}\n", note);
-  say_doubts(doubts, watch);
+  say_remarks(remarks, watch);
   if (corrected) write_corrected(corrected->stream(), arguments, {model, {}, {}, samples, {}}, watch);
   if (page) report::write_monitor_report(page->stream(), model, watch, runs, trend, units);
   if (json) report::write_monitor_json(json->stream(), model, watch, runs, band.figures());
