@@ -99,6 +99,12 @@ class Refusal(examples.InAFolder):
             with self.assertRaisesRegex(spoolflow.Error, f"^stroke_m: Value {stroke_m} not in range"):
                 spoolflow.read_recording(examples.RAMP, stroke_m=stroke_m)
 
+    def test_of_times_that_are_text_names_what_makes_instants(self):
+        text = ["2026-01-01 00:00:00.000", "2026-01-01 00:00:00.001"]
+        for name in ("time", "time_s"):
+            with self.assertRaisesRegex(spoolflow.Error, f"^{name}: holds text, such as '2026-01-01 .*pandas.to_datetime"):
+                examples.model().estimate({name: np.array(text, dtype=object), "current_A": [0, 0], "position_m": [0, 0]})
+
     def test_says_which_columns_of_a_table_may_be_meant(self):
         run = examples.ramp()
         table = {"time_s": run.time_s, "current_A": run.current_A, "position_m": run.position_m, "U_coil_V": run.voltage_V,

@@ -1,6 +1,7 @@
 """What users give as samples, made into the arrays that the compiled part reads."""
 from __future__ import annotations
 
+import re
 from typing import Any, Dict, Mapping, Optional
 
 import numpy as np
@@ -52,11 +53,20 @@ class Clock:
         return out
 
 
+def _refuse_text(name: str, values: Any) -> None:
+    """Of times that are written out: a file's are read, those of a table become instants by whoever made it."""
+    if re.match(r"time($|[^a-z])", name, re.IGNORECASE) and hasattr(values, "__iter__"):
+        first = next(iter(values), None)
+        if isinstance(first, str):
+            raise _native.Error(f"{name}: holds text, such as {first!r}; make instants of it, pandas.to_datetime(...), or numbers")
+
+
 def in_seconds(columns: Mapping[str, Any], clock: Optional[Clock] = None) -> Dict[str, Any]:
     """The columns, those of instants or of times since one in seconds, as their names then say: `time_s` of `time`."""
     clock = Clock() if clock is None else clock
     out: Dict[str, Any] = {}
     for name, values in columns.items():
+        _refuse_text(name, values)
         if getattr(getattr(values, "dtype", None), "kind", "") in ("m", "M"):
             values = clock.seconds(_of_pandas(values) if hasattr(values, "isna") else np.asarray(values))
             name = name if name.endswith("_s") or f"{name}_s" in columns else f"{name}_s"
