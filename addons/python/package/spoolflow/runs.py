@@ -98,9 +98,15 @@ class Files(NamedTuple):
     def called(self, said: str) -> str:
         """A message with the names that the caller knows."""
         for path, name in self.names.items():
-            alone = rf"(?<![\w/.-]){re.escape(os.path.basename(path))}"
-            said = re.sub(alone, lambda _, name=name: name, said.replace(path, name))  # type: ignore[misc]
+            said = said.replace(path, name)
         return said
+
+    def noted(self, note: str) -> str:
+        """The same of what calls files by their last part."""
+        for path, name in self.names.items():
+            alone = rf"(?<![\w/.-]){re.escape(os.path.basename(path))}"
+            note = re.sub(alone, lambda _, name=name: name, note.replace(path, name))  # type: ignore[misc]
+        return note
 
 
 def _stem(run: Any, k: int) -> str:

@@ -51,7 +51,7 @@ def _units(report: Optional[PathLike], units: Sequence[str]) -> Optional[List[st
 def _warn(notes: Iterable[str], files: Files) -> None:
     """Of recordings as they were read, by the names that they were given with."""
     for note in notes:
-        warnings.warn(files.called(note), stacklevel=3)
+        warnings.warn(files.noted(note), stacklevel=3)
 
 
 class Validation(JudgedFigures):
