@@ -152,6 +152,7 @@ SourceView ValveSources::view(std::size_t k) const {
   if (const auto* tcp = std::get_if<std::unique_ptr<TcpSource>>(&place.source)) out.port = (*tcp)->port();
   out.counters = place.before + place.intake->counters();
   out.trouble = place.intake->trouble();
+  out.unread = place.intake->unread();
   out.findings = first_samples_.findings(k);
   const std::int64_t arrived_ns = place.valve->arrived_ns();
   out.age_s =

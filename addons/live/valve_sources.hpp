@@ -24,6 +24,7 @@ struct SourceView {
   std::uint16_t port = 0;   ///< of tcp
   IntakeCounters counters;  ///< since the store began; without one, since the start
   std::string trouble;      ///< empty: none
+  std::string unread;       ///< columns of the sender that may be meant and are not read; empty: none
   bool stalled = false;     ///< no sample for longer than the site allows; a recording that has ended is not stalled
   double age_s = 0;         ///< since the last sample; NaN: none yet
   std::vector<std::string> findings{};  ///< what speaks against the sender's first samples (first_samples.hpp)

@@ -45,6 +45,8 @@ void ValveWatch::look_at_source(const ValveView& valve, const SourceView& source
   }
   if (source.trouble != before.trouble && !source.trouble.empty()) add(source.trouble);
   before.trouble = source.trouble;
+  if (source.unread != before.unread && !source.unread.empty()) add("the sender's samples: " + source.unread);
+  before.unread = source.unread;
   if (before.findings.empty()) {  // their figures change from time to time
     for (const std::string& one : source.findings) add("the sender's samples: " + one);
   }

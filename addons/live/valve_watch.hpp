@@ -25,7 +25,7 @@ class ValveWatch {
   struct Reported {
     bool stalled = false;
     monitor::Ne107 condition = monitor::Ne107::good;
-    std::string trouble{};
+    std::string trouble{}, unread{};
     std::vector<std::string> findings{};
     AlarmRecording recording{};
   };

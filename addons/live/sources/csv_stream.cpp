@@ -19,8 +19,11 @@ std::vector<estimation::TimedSample> samples_of(const recording::SampleBlock& bl
 std::uint64_t read_csv(std::unique_ptr<recording::InputBytes> input, const recording::ReadOptions& options,
                        std::uint64_t next, Intake& intake) {
   try {
-    const auto reader = estimation::open_sensor_channels(std::move(input), options);
+    recording::ReadOptions channels = options;
+    channels.assumed.clear();  // of what the sender has not got nothing is said
+    const auto reader = estimation::open_sensor_channels(std::move(input), channels);
     intake.set_trouble({});
+    intake.set_unread(reader->notes().resampled);
     recording::SampleBlock block;
     std::uint64_t left_out = 0;
     while (reader->next(block)) {

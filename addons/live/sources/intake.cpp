@@ -71,6 +71,16 @@ std::string Intake::trouble() const {
   return trouble_;
 }
 
+void Intake::set_unread(std::string columns) {
+  const std::lock_guard lock(mutex_);
+  unread_ = std::move(columns);
+}
+
+std::string Intake::unread() const {
+  const std::lock_guard lock(mutex_);
+  return unread_;
+}
+
 bool Intake::empty() const {
   const std::lock_guard lock(mutex_);
   return blocks_.empty();

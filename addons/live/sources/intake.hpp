@@ -36,6 +36,9 @@ class Intake {
   /// What is wrong with the source at present, as the page shows it; empty: nothing.
   void set_trouble(std::string trouble);
   [[nodiscard]] std::string trouble() const;
+  /// Which columns of the sender may be meant and are not read; empty: none.
+  void set_unread(std::string columns);
+  [[nodiscard]] std::string unread() const;
   [[nodiscard]] IntakeCounters counters() const;
   /// Whether nothing waits to be worked on.
   [[nodiscard]] bool empty() const;
@@ -48,7 +51,7 @@ class Intake {
   std::condition_variable_any room_;
   std::vector<SampleBlock> blocks_;
   std::size_t waiting_ = 0;  ///< samples in `blocks_`
-  std::string trouble_;
+  std::string trouble_, unread_;
   std::atomic<std::uint64_t> received_ = 0, dropped_ = 0, lost_ = 0, repeated_ = 0, unreadable_ = 0, connections_ = 0;
 };
 

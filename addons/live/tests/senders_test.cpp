@@ -40,6 +40,20 @@ TEST_F(SendersTest, AnswersWhatComesByTcp) {
   EXPECT_EQ(engine.source(0).counters.connections, 3U);
 }
 
+TEST_F(SendersTest, AColumnThatMayBeMeantIsNotLeftOutInSilence) {
+  Engine engine(site({{"t", TcpSettings{{"127.0.0.1", 0}}}}), "test");
+  engine.start();
+  const Sender sender(engine.source(0).port);
+  sender.send("time_s,current_A,U_coil_V,position_mm,oil_temperature_C\n" + rows(0, 50));
+  ASSERT_TRUE(has(engine, 0, 50));
+  ASSERT_TRUE(comes_true([&] {
+    const std::vector<Event> events = engine.events();
+    return std::ranges::any_of(events, [](const Event& one) {
+      return one.text.find("the sender's samples: column 'U_coil_V' is not read: if it is voltage, name it") == 0;
+    });
+  }));
+}
+
 TEST_F(SendersTest, AStrangerWhoConnectsDoesNotCutOffTheSenderThatIsAllowed) {
   SiteSettings settings = site({{"t", TcpSettings{{"127.0.0.1", 0}}}});
   settings.allow = {"127.0.0.1"};
