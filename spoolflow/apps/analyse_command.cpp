@@ -53,9 +53,7 @@ void self_check(const AnalyseArguments& arguments) {
 }
 
 analysis::RunSamples run_of(const model::Model& model, const AnalyseArguments& arguments) {
-  recording::ChannelMap channels;
-  if (!arguments.channels.empty()) channels = recording::read_channel_map(arguments.channels);
-  AnalysedRun run = read_analysed_run(model, arguments.recording, std::move(channels));
+  AnalysedRun run = read_analysed_run(model, arguments.recording, channels_from(arguments.channels));
   if (!run.resampled.empty()) say("{}: {}\n", arguments.recording, run.resampled);
   return std::move(run.samples);
 }
@@ -78,13 +76,14 @@ void analyse_dither(const AnalyseArguments& arguments) {
   question.points = scenario_of(arguments).points;
   question.shape = arguments.dither_shape == "sine" ? analysis::DitherShape::sine : analysis::DitherShape::square;
   question.ripple_limit_share = 0.01 * arguments.ripple_limit_percent;
-  AnalyseOutputs outputs(arguments);
+  Outputs outputs(inputs_of(arguments));
+  OutputFile *const page = outputs.open_if_named(arguments.report), *figures = outputs.open_if_named(arguments.json);
   const analysis::DitherStudy results = [&] {
     Progress progress("dither", arguments.quiet);
     return analysis::dither_study(model, question, workers(arguments));
   }();
-  if (outputs.page) report::write_dither_report(outputs.page->stream(), model, results, units);
-  if (outputs.figures) report::write_dither_json(outputs.figures->stream(), model, results);
+  if (page != nullptr) report::write_dither_report(page->stream(), model, results, units);
+  if (figures != nullptr) report::write_dither_json(figures->stream(), model, results);
   outputs.commit();
   if (arguments.json == "-" || arguments.report == "-") return;
   const report::DitherVerdict verdict = report::dither_verdict(model, results);
@@ -102,7 +101,8 @@ void analyse(const AnalyseArguments& arguments) {
   const report::ReaderUnits units(arguments.units);
   const model::Model model = model_of(arguments);
   analysis::Analysis results{scenario_of(arguments), {}, {}, {}, {}};
-  AnalyseOutputs outputs(arguments, results.scenario.study.valve);
+  Outputs outputs(inputs_of(arguments, results.scenario.study.valve));
+  OutputFile *const page = outputs.open_if_named(arguments.report), *figures = outputs.open_if_named(arguments.json);
   const bool whole = !results.scenario.study.skip;
   std::optional<analysis::RunSamples> run;
   if (!arguments.recording.empty()) run = run_of(model, arguments);
@@ -132,8 +132,8 @@ void analyse(const AnalyseArguments& arguments) {
     }
     if (whole) results.study = study(model, results.scenario, *valve, arguments, std::move(done_elsewhere), progress);
   }
-  if (outputs.page) report::write_analysis_report(outputs.page->stream(), model, results, units);
-  if (outputs.figures) report::write_analysis_json(outputs.figures->stream(), model, results);
+  if (page != nullptr) report::write_analysis_report(page->stream(), model, results, units);
+  if (figures != nullptr) report::write_analysis_json(figures->stream(), model, results);
   outputs.commit();
   if (const auto state = state_file(arguments)) std::filesystem::remove(*state);
   if (arguments.json != "-" && arguments.report != "-") {

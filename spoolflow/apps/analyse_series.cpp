@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "spoolflow/analysis/series_study.hpp"
+#include "spoolflow/apps/terminal/input_kind.hpp"
 #include "spoolflow/apps/terminal/output_file.hpp"
 #include "spoolflow/apps/terminal/progress.hpp"
-#include "spoolflow/apps/terminal/suggestion.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/parallel/for_each.hpp"
@@ -43,20 +43,8 @@ std::string bytes_of(const std::filesystem::path& file) {
 
 }  // namespace
 
-AnalyseOutputs::AnalyseOutputs(const AnalyseArguments& arguments, const std::string& valve_file) {
-  std::vector<std::filesystem::path> inputs{arguments.model};
-  for (const std::string& file : {arguments.scenario, arguments.recording, arguments.channels, valve_file}) {
-    if (!file.empty()) inputs.emplace_back(file);
-  }
-  if (!arguments.report.empty()) {
-    page.emplace(arguments.report, inputs);
-    inputs.emplace_back(arguments.report);
-  }
-  if (!arguments.json.empty()) figures.emplace(arguments.json, inputs);
-}
-
-void AnalyseOutputs::commit() {
-  commit_together({page ? &*page : nullptr, figures ? &*figures : nullptr});
+std::vector<std::filesystem::path> inputs_of(const AnalyseArguments& arguments, const std::string& valve_file) {
+  return {arguments.model, arguments.scenario, arguments.recording, arguments.channels, valve_file};
 }
 
 void print_lines(const std::string& text) {
@@ -87,11 +75,7 @@ analysis::StudyWork kept_work(const AnalyseArguments& arguments) {
   analysis::StudyWork work{.identity = std::string(tool_version()), .workers = workers(arguments)};
   if (const std::optional<std::filesystem::path> state = state_file(arguments)) {
     work.saved = bytes_of(*state);
-    work.save = [file = *state](const std::string& text) {
-      OutputFile output(file);
-      output.stream() << text;
-      output.commit();
-    };
+    work.save = [file = *state](const std::string& text) { write_file(file, {}, text); };
   }
   return work;
 }
@@ -117,7 +101,8 @@ void analyse_series(const AnalyseArguments& arguments) {
   const report::ReaderUnits units(arguments.units);
   const model::Model type = model_of(arguments);
   const analysis::Scenario scenario = scenario_of(arguments);
-  AnalyseOutputs outputs(arguments, scenario.study.valve);
+  Outputs outputs(inputs_of(arguments, scenario.study.valve));
+  OutputFile *const page = outputs.open_if_named(arguments.report), *figures = outputs.open_if_named(arguments.json);
   const rig::ValveAndCampaign valve = analysis::study_valve(type, scenario);
   const analysis::SeriesStudy study = [&] {
     Progress progress("series", arguments.quiet);
@@ -128,8 +113,8 @@ void analyse_series(const AnalyseArguments& arguments) {
     };
     return analysis::series_study(type, arguments.model, valve, arguments.series, scenario.seed, work);
   }();
-  if (outputs.page) report::write_series_study_report(outputs.page->stream(), type, study, units);
-  if (outputs.figures) report::write_series_study_json(outputs.figures->stream(), type, study);
+  if (page != nullptr) report::write_series_study_report(page->stream(), type, study, units);
+  if (figures != nullptr) report::write_series_study_json(figures->stream(), type, study);
   outputs.commit();
   if (const auto state = state_file(arguments)) std::filesystem::remove(*state);
   if (arguments.json == "-" || arguments.report == "-") return;

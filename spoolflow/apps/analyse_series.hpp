@@ -9,7 +9,6 @@
 
 #include "spoolflow/analysis/scenario.hpp"
 #include "spoolflow/analysis/study.hpp"
-#include "spoolflow/apps/terminal/output_file.hpp"
 #include "spoolflow/model/model.hpp"
 
 namespace spoolflow::apps {
@@ -47,14 +46,9 @@ void analyse_series(const AnalyseArguments& arguments);
 [[nodiscard]] analysis::StudyWork kept_work(const AnalyseArguments& arguments);
 /// The model, or of a whole valve the model of the direction asked for. Throws where the model knows another one only.
 [[nodiscard]] model::Model model_of(const AnalyseArguments& arguments);
-/// The page and the figures that are asked for; both appear by commit(), or neither.
-struct AnalyseOutputs {
-  /// `valve_file`: what else the scenario reads; empty: nothing.
-  explicit AnalyseOutputs(const AnalyseArguments& arguments, const std::string& valve_file = {});
-  void commit();
-
-  std::optional<OutputFile> page, figures;
-};
+/// All files that are read. `valve_file`: what else the scenario reads; empty: nothing.
+[[nodiscard]] std::vector<std::filesystem::path> inputs_of(const AnalyseArguments& arguments,
+                                                           const std::string& valve_file = {});
 void print_lines(const std::string& text);
 
 }  // namespace spoolflow::apps

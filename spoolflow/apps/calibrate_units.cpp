@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/apps/terminal/input_kind.hpp"
 #include "spoolflow/apps/terminal/output_file.hpp"
 #include "spoolflow/apps/terminal/progress.hpp"
-#include "spoolflow/apps/terminal/suggestion.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/apps/work/readable_model.hpp"
@@ -112,7 +112,7 @@ calibration::CalibratedUnit calibrate_unit(const CalibrateArguments& arguments, 
         progress.update(share);
       });
   output.stream() << readable_text(unit.model, task.model);
-  commit_together({&output});
+  output.commit();
   for (const std::string& doubt : unit.model.provenance.doubts)
     say("spoolflow: doubt: {}: {}\n", unit.model.valve.name, doubt);
   for (std::size_t k = 0; !arguments.quiet && k < unit.directions.size(); ++k)
@@ -126,24 +126,23 @@ void write_series(const CalibrateArguments& arguments, const std::vector<Calibra
   const report::ReaderUnits reader_units(arguments.units);
   std::vector<std::filesystem::path> used{arguments.type};
   for (const CalibrationTask& task : tasks) used.insert(used.end(), {task.campaign, task.model});
-  std::unique_ptr<OutputFile> page, updated;
-  if (!arguments.report.empty()) page = std::make_unique<OutputFile>(arguments.report, used);
-  used.emplace_back(arguments.report);
-  if (!arguments.updated_type.empty()) updated = std::make_unique<OutputFile>(arguments.updated_type, used);
+  Outputs outputs(used);
+  OutputFile* const page = outputs.open_if_named(arguments.report);
+  OutputFile* const updated = outputs.open_if_named(arguments.updated_type);
   std::vector<calibration::Series> series;
   model::Model next = type;
   for (const std::string& direction : model::directions(type)) {
     const model::Model of_one = model::of_direction(type, direction);
     series.push_back(calibration::compare_series(of_one, arguments.type, units.at(series.size())));
     series.back().direction = of_direction(type, series.size() - 1);
-    if (updated) model::put_direction(next, direction, calibration::updated_type(of_one, series.back()));
+    if (updated != nullptr) model::put_direction(next, direction, calibration::updated_type(of_one, series.back()));
   }
-  if (page) {
+  if (page != nullptr) {
     const std::string origin = fmt::format("{}, spoolflow {}", model::creation_time(), tool_version());
     report::write_series_report(page->stream(), series, origin, reader_units);
   }
-  if (updated) updated->stream() << readable_text(next, arguments.updated_type);
-  commit_together({page.get(), updated.get()});
+  if (updated != nullptr) updated->stream() << readable_text(next, arguments.updated_type);
+  outputs.commit();
   if (arguments.quiet) return;
   for (const calibration::Series& each : series) print_series(each);
 }
@@ -172,7 +171,7 @@ void calibrate_type(const CalibrateArguments& arguments) {
   }
   const calibration::TypeOfUnits type = calibration::type_of_units(units, tolerances);
   output.stream() << readable_text(type.model, arguments.model);
-  commit_together({&output});
+  output.commit();
   for (std::size_t k = 0; !arguments.quiet && k < type.compared.size(); ++k)
     print_type(of_direction(type.model, k), type.compared[k], tolerances);
 }

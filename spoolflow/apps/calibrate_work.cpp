@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/apps/terminal/input_kind.hpp"
 #include "spoolflow/apps/terminal/output_file.hpp"
-#include "spoolflow/apps/terminal/suggestion.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/report/calibration/calibration_summary.hpp"
@@ -73,19 +73,17 @@ void calibrate_one(const CalibrateArguments& arguments, const CalibrationTask& t
                    const std::function<MadeModel(const recording::Campaign&)>& make) {
   const recording::Campaign campaign = read_campaign(arguments, task.campaign);
   const report::ReaderUnits units(arguments.units);
-  std::vector<std::filesystem::path> inputs = files_of(campaign);
-  OutputFile output(task.model, inputs);
-  std::optional<OutputFile> page;
-  inputs.emplace_back(task.model);
-  if (!task.report.empty()) page.emplace(task.report, inputs);
+  Outputs outputs(files_of(campaign));
+  OutputFile& output = outputs.open(task.model);
+  OutputFile* const page = outputs.open_if_named(task.report);
   const auto [model, text] = make(campaign);
   for (const model::InputFile& input : model.provenance.inputs) {
     if (!input.resampled.empty()) say("{}: {}\n", input.file, input.resampled);
   }
   for (const std::string& doubt : model.provenance.doubts) say("spoolflow: doubt: {}\n", doubt);
   output.stream() << text;
-  if (page) report::write_calibration_report(page->stream(), model, units);
-  commit_together({&output, page ? &*page : nullptr});
+  if (page != nullptr) report::write_calibration_report(page->stream(), model, units);
+  outputs.commit();
   if (!arguments.quiet) print_summary(model);
 }
 

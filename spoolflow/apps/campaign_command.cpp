@@ -19,14 +19,11 @@ namespace {
 
 void store(const std::filesystem::path& folder, const rig::CampaignItem& item, const rig::BenchRun& run,
            const rig::Simulation& simulation) {
-  OutputFile recording(folder / item.file);
-  rig::write_recording(recording.stream(), simulation.recording, run);
-  if (simulation.truth.size() > 0) {
-    OutputFile truth(folder / "truth" / item.file);
-    rig::write_truth(truth.stream(), simulation.truth);
-    truth.commit();
-  }
-  recording.commit();
+  Outputs outputs;
+  rig::write_recording(outputs.open(folder / item.file).stream(), simulation.recording, run);
+  if (simulation.truth.size() > 0)
+    rig::write_truth(outputs.open(folder / "truth" / item.file).stream(), simulation.truth);
+  outputs.commit();
 }
 
 /// An earlier campaign of the rig is replaced, other files are not.
@@ -51,20 +48,15 @@ void campaign(const CampaignArguments& arguments) {
                                                 : rig::campaign_items(asked.valve, asked.campaign);
   make_output_folder(folder);
   refuse_to_replace(folder, items);
-  OutputFile text(folder / "campaign.toml");  // first: it says that the recordings beside it may be made again
-  text.stream() << rig::campaign_text(asked.valve, items);
-  text.commit();
-  if (arguments.with_truth) {
-    make_output_folder(folder / "truth");
-  }
-  {
-    Progress progress("simulating the campaign", arguments.quiet);
-    rig::run_campaign(items, {.store = [&](const auto& item, const auto& run,
-                                           const auto& simulation) { store(folder, item, run, simulation); },
-                              .progress = [&](double share) { progress.update(share); },
-                              .workers = parallel::cores(),
-                              .with_truth = arguments.with_truth});
-  }
+  // First: it says that the recordings beside it may be made again.
+  write_file(folder / "campaign.toml", {}, rig::campaign_text(asked.valve, items));
+  if (arguments.with_truth) make_output_folder(folder / "truth");
+  Progress progress("simulating the campaign", arguments.quiet);
+  rig::run_campaign(items, {.store = [&](const auto& item, const auto& run,
+                                         const auto& simulation) { store(folder, item, run, simulation); },
+                            .progress = [&](double share) { progress.update(share); },
+                            .workers = parallel::cores(),
+                            .with_truth = arguments.with_truth});
 }
 
 void add_campaign_command(CLI::App& program) {

@@ -196,6 +196,15 @@ CLI::Option* add_fleet_option(CLI::App& command, std::string& fleet, const std::
       ->type_name("FLEET.toml");
 }
 
+void add_channels_option(CLI::App& command, std::string& channels) {
+  command.add_option("--channels", channels, "channel map (TOML) for files with other column names or units")
+      ->type_name("MAP.toml");
+}
+
+recording::ChannelMap channels_from(const std::string& file) {
+  return file.empty() ? recording::ChannelMap() : recording::read_channel_map(file);
+}
+
 CLI::Option* add_environment_option(CLI::App& command, std::string& environment) {
   return command
       .add_option("--environment", environment,

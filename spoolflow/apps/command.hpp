@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "spoolflow/recording/channel_map.hpp"
+
 namespace CLI {
 class App;
 class Option;
@@ -37,6 +39,10 @@ void add_quiet(CLI::App& command, bool& quiet);
 
 /// `--fleet FLEET.toml`: workers of a fleet do what falls into pieces. `which`: "of the global study".
 CLI::Option* add_fleet_option(CLI::App& command, std::string& fleet, const std::string& which);
+/// `--channels MAP.toml`: a channel map.
+void add_channels_option(CLI::App& command, std::string& channels);
+/// The map of a file, none where no file is named. Throws RecordingError.
+[[nodiscard]] recording::ChannelMap channels_from(const std::string& file);
 /// `environment` stays empty where nobody asks: then it is the model's.
 CLI::Option* add_environment_option(CLI::App& command, std::string& environment);
 

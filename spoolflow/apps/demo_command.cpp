@@ -49,10 +49,7 @@ void demo(const DemoArguments& arguments) {
   refuse_to_replace(folder);
   const std::string from = arguments.valve + "/";
   for (const EmbeddedFile& file : demo_files()) {
-    if (!file.name.starts_with(from)) continue;
-    OutputFile output(folder / file.name.substr(from.size()));
-    output.stream() << file.bytes;
-    output.commit();
+    if (file.name.starts_with(from)) write_file(folder / file.name.substr(from.size()), {}, file.bytes);
   }
   const Shown& valve = *std::find_if(shown_valves.begin(), shown_valves.end(),
                                      [&](const Shown& each) { return each.valve == arguments.valve; });

@@ -13,8 +13,8 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/elsewhere.hpp"
 #include "spoolflow/apps/estimate_work.hpp"
+#include "spoolflow/apps/terminal/input_kind.hpp"
 #include "spoolflow/apps/terminal/output_file.hpp"
-#include "spoolflow/apps/terminal/suggestion.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/work/notes.hpp"
 #include "spoolflow/parallel/for_each.hpp"
@@ -97,9 +97,7 @@ void report(const std::vector<validation::EstimateSummary>& summaries, const Est
 }  // namespace
 
 void estimate(const EstimateArguments& arguments) {
-  std::vector<Input> roles{{arguments.model, FileKind::model}};
-  for (const std::string& recording : arguments.recordings) roles.push_back({recording, FileKind::recording});
-  refuse_other_kinds("estimate", roles);
+  refuse_other_kinds("estimate", arguments.model, arguments.recordings);
   EstimateTask task = estimate_task(arguments);
   if (const std::string note = type_note(task.model, arguments.model); !note.empty() && !arguments.quiet)
     say("{}\n", note);
@@ -107,12 +105,10 @@ void estimate(const EstimateArguments& arguments) {
   const bool one = arguments.recordings.size() == 1;
   const auto targets = one ? std::vector<std::filesystem::path>{arguments.output}
                            : targets_in(arguments.output, arguments.recordings, task.format);
-  std::optional<OutputFile> summary_file;
-  if (!arguments.json.empty()) {
-    std::vector<std::filesystem::path> used = task.inputs;
-    used.insert(used.end(), targets.begin(), targets.end());
-    summary_file.emplace(arguments.json, used);
-  }
+  std::vector<std::filesystem::path> used = task.inputs;
+  used.insert(used.end(), targets.begin(), targets.end());
+  Outputs outputs(used);
+  OutputFile* const summary_file = outputs.open_if_named(arguments.json);
   if (!one) make_output_folder(arguments.output);
   if (!arguments.fleet.empty()) {
     summaries = elsewhere().estimate(task, arguments, targets);
@@ -123,10 +119,8 @@ void estimate(const EstimateArguments& arguments) {
     task.quiet = true;  // one line cannot report on many
     summaries = estimate_all(task, arguments.recordings, targets);
   }
-  if (summary_file) {
-    report::write_estimate_summary(summary_file->stream(), summaries);
-    summary_file->commit();
-  }
+  if (summary_file != nullptr) report::write_estimate_summary(summary_file->stream(), summaries);
+  outputs.commit();
   report(summaries, task, arguments);
 }
 
@@ -158,9 +152,7 @@ void add_estimate_command(CLI::App& program) {
       ->add_option("--estimator", arguments->estimator, "condensed or observer; the observer where the model has one")
       ->type_name("NAME")
       ->check(CLI::IsMember({"condensed", "observer"}));
-  command
-      ->add_option("--channels", arguments->channels, "channel map (TOML) for files with other column names or units")
-      ->type_name("MAP.toml");
+  add_channels_option(*command, arguments->channels);
   add_environment_option(*command, arguments->environment);
   command->add_option("--json", arguments->json, "summary to write: mean flow and band, share of each status, findings")
       ->type_name("SUMMARY.json");

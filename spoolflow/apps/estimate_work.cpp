@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/terminal/ahead.hpp"
 #include "spoolflow/apps/terminal/output_file.hpp"
 #include "spoolflow/apps/terminal/progress.hpp"
@@ -57,10 +58,8 @@ EstimateTask estimate_task(const EstimateArguments& arguments) {
   task.estimator = estimation::best_estimator(task.model);
   if (arguments.estimator == "condensed") task.estimator = estimation::Estimator::condensed;
   if (arguments.estimator == "observer") task.estimator = estimation::Estimator::observer;
-  if (!arguments.channels.empty()) {
-    task.channels = recording::read_channel_map(arguments.channels);
-    task.inputs.emplace_back(arguments.channels);
-  }
+  task.channels = channels_from(arguments.channels);
+  if (!arguments.channels.empty()) task.inputs.emplace_back(arguments.channels);
   task.inputs.insert(task.inputs.end(), arguments.recordings.begin(), arguments.recordings.end());
   return task;
 }

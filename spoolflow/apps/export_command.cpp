@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/commands.hpp"
@@ -83,8 +84,7 @@ void export_folder(const ExportArguments& arguments) {
   for (const exports::ExportedFile& file : files) {
     make_output_folder((folder / file.name).parent_path());
     outputs.push_back(std::make_unique<OutputFile>(folder / file.name, std::vector<fs::path>{arguments.model}));
-    outputs.back()->stream() << file.content;
-    outputs.back()->stream().flush();
+    outputs.back()->stream() << file.content << std::flush;
   }
   for (const auto& output : outputs) output->commit();
   if (!model.has_observer()) {
@@ -122,9 +122,8 @@ void export_ssp(const ExportArguments& arguments) {
   if (arguments.valve.empty())
     throw std::invalid_argument("--valve: name the virtual valve beside the sensor, as for fmu");
   const rig::ValveUnderTest valve = rig::read_valve_and_campaign(arguments.valve).valve;
-  OutputFile output(arguments.output, {arguments.model, arguments.valve});
-  output.stream() << exports::system_package()(asked_model(arguments), valve, fmi_version(arguments), tool_version());
-  output.commit();
+  write_file(arguments.output, {arguments.model, arguments.valve},
+             exports::system_package()(asked_model(arguments), valve, fmi_version(arguments), tool_version()));
 }
 
 void export_fmu(const ExportArguments& arguments) {
@@ -139,16 +138,11 @@ void export_fmu(const ExportArguments& arguments) {
                                           arguments.direction));
     }
     const rig::ValveUnderTest valve = rig::read_valve_and_campaign(arguments.model).valve;
-    OutputFile output(arguments.output, {arguments.model});
-    output.stream() << exports::valve_fmu(valve, version, tool_version());
-    output.commit();
-    return;
+    return write_file(arguments.output, {arguments.model}, exports::valve_fmu(valve, version, tool_version()));
   }
   refuse_missing(arguments.model);
   const model::Model model = asked_model(arguments);
-  OutputFile output(arguments.output, {arguments.model});
-  output.stream() << exports::sensor_fmu(model, version, tool_version());
-  output.commit();
+  write_file(arguments.output, {arguments.model}, exports::sensor_fmu(model, version, tool_version()));
   if (!model.has_observer()) {
     say("{}: the model is not calibrated for the observer, so the FMU runs the condensed sensor; calibrate with a "
         "solenoid_dynamic recording and an axial_force_map at two or more oil temperatures for the observer\n",
@@ -161,9 +155,7 @@ void export_parameters(const ExportArguments& arguments) {
   exports::ImageContents contents = image_contents();
   contents.condensed = arguments.sensors != "observer";
   contents.observer = arguments.sensors != "condensed";
-  OutputFile output(arguments.output, {arguments.model});
-  output.stream() << exports::parameter_image(model, contents);
-  output.commit();
+  write_file(arguments.output, {arguments.model}, exports::parameter_image(model, contents));
   if (!model.has_observer() && contents.observer) {
     say("{}: the model is not calibrated for the observer, so the image holds the condensed sensor alone; calibrate "
         "with a solenoid_dynamic recording and an axial_force_map at two or more oil temperatures for both\n",
@@ -175,12 +167,6 @@ void export_parameters(const ExportArguments& arguments) {
         "image's model_sha256, or shorten \"name\" in the model\n",
         model.valve.name, room, model.valve.name.size());
   }
-}
-
-void export_st(const ExportArguments& arguments) {
-  OutputFile output(arguments.output, {arguments.model});
-  output.stream() << exports::st_program(asked_model(arguments));
-  output.commit();
 }
 
 void export_asked(const ExportArguments& arguments) {
@@ -195,7 +181,8 @@ void export_asked(const ExportArguments& arguments) {
   if (arguments.kind == "fmu") return export_fmu(arguments);
   if (arguments.kind == "ssp") return export_ssp(arguments);
   if (arguments.kind == "cpp" || arguments.kind == "c") return export_folder(arguments);
-  if (arguments.kind == "st") return export_st(arguments);
+  if (arguments.kind == "st")
+    return write_file(arguments.output, {arguments.model}, exports::st_program(asked_model(arguments)));
   export_parameters(arguments);
 }
 
@@ -246,26 +233,30 @@ void print_image(const std::string& file, const exports::ImageSummary& image) {
 }
 
 void print_image_json(const exports::ImageSummary& image) {
+  using Json = nlohmann::ordered_json;
   const sensor::ImageHeader& header = image.header;
-  print(
-      "{{\n \"format\": \"parameters\",\n \"erased\": {},\n \"accepted\": {},\n \"refusal\": {},\n \"refusal_text\": "
-      "{},\n",
-      image.erased, image.refusal == sensor::ImageRefusal::none, static_cast<unsigned>(image.refusal),
-      json_text(text_of(image.refusal)));
-  print(" \"valve\": {},\n \"direction\": {},\n \"layout_version\": {},\n \"image_bytes\": {},\n \"file_bytes\": {},\n",
-        json_text(field(header.valve_name)), json_text(field(header.direction)), header.layout_version,
-        header.total_bytes, image.file_bytes);
-  print(" \"rated_flow_m3_per_s\": {},\n \"stroke_m\": {},\n \"created\": {},\n \"tool_version\": {},\n",
-        json_number(header.rated_flow_m3_per_s), json_number(header.stroke_m),
-        json_text(exports::creation_text(header)), json_text(field(header.tool_version)));
-  print(" \"model_sha256\": \"{}\",\n \"crc32\": \"{:08X}\",\n \"crc32_reckoned\": \"{:08X}\",\n \"problem\": {},\n",
-        exports::sha256_text(header), header.crc32, image.crc32, json_text(image.problem));
-  print(" \"tables\": [");
-  for (const exports::ImageTableSummary& table : image.tables) {
-    print("{}\n  {{\"table\": {}, \"offset\": {}, \"bytes\": {}}}", &table == image.tables.data() ? "" : ",",
-          json_text(table.name), table.offset, table.bytes);
-  }
-  print("\n ]\n}}\n");
+  Json tables = Json::array();
+  for (const exports::ImageTableSummary& table : image.tables)
+    tables.push_back({{"table", table.name}, {"offset", table.offset}, {"bytes", table.bytes}});
+  print_text(json_text(Json{{"format", "parameters"},
+                            {"erased", image.erased},
+                            {"accepted", image.refusal == sensor::ImageRefusal::none},
+                            {"refusal", static_cast<unsigned>(image.refusal)},
+                            {"refusal_text", text_of(image.refusal)},
+                            {"valve", field(header.valve_name)},
+                            {"direction", field(header.direction)},
+                            {"layout_version", header.layout_version},
+                            {"image_bytes", header.total_bytes},
+                            {"file_bytes", image.file_bytes},
+                            {"rated_flow_m3_per_s", header.rated_flow_m3_per_s},
+                            {"stroke_m", header.stroke_m},
+                            {"created", exports::creation_text(header)},
+                            {"tool_version", field(header.tool_version)},
+                            {"model_sha256", exports::sha256_text(header)},
+                            {"crc32", fmt::format("{:08X}", header.crc32)},
+                            {"crc32_reckoned", fmt::format("{:08X}", image.crc32)},
+                            {"problem", image.problem},
+                            {"tables", tables}}));
 }
 
 }  // namespace

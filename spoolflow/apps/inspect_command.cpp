@@ -7,11 +7,12 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/commands.hpp"
+#include "spoolflow/apps/terminal/input_kind.hpp"
 #include "spoolflow/apps/terminal/progress.hpp"
-#include "spoolflow/apps/terminal/suggestion.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/work/folder_text.hpp"
 #include "spoolflow/apps/work/inspection_text.hpp"
@@ -70,7 +71,7 @@ void inspect(const InspectArguments& arguments) {
   }
   refuse_other_kinds("inspect", {{arguments.file, FileKind::recording}});
   recording::ReadOptions options;
-  if (!arguments.channels.empty()) options.channels = recording::read_channel_map(arguments.channels);
+  options.channels = channels_from(arguments.channels);
   if (arguments.stroke_mm > 0) options.stroke_m = units::m_from_mm(arguments.stroke_mm);
   recording::Inspection found;
   {
@@ -83,7 +84,7 @@ void inspect(const InspectArguments& arguments) {
     fit = fit_of_inspected(arguments.file, options, found, protocol_named(arguments.protocol));
   }
   if (arguments.json) {
-    print_text(inspection_json(found, fit ? protocol_json(*fit) : ""));
+    print_text(inspection_json(found, fit ? protocol_json(*fit) : nlohmann::ordered_json()));
   } else {
     print_text(inspection_text({.file = arguments.file == "-" ? "standard input" : arguments.file,
                                 .map_file = arguments.channels,
@@ -119,9 +120,7 @@ void add_inspect_command(CLI::App& program) {
         "spoolflow inspect spring.csv --protocol spring", "spoolflow inspect campaign",
         "spoolflow inspect valve.bin"}});
   command->add_option("file", arguments->file, "recording, folder of recordings, or parameters")->required();
-  command
-      ->add_option("--channels", arguments->channels, "channel map (TOML) for files with other column names or units")
-      ->type_name("MAP.toml");
+  add_channels_option(*command, arguments->channels);
   command->add_option("--stroke-mm", arguments->stroke_mm, "the valve's stroke, for positions in percent")
       ->type_name("MM")
       ->check(between(0.01, 50.0));

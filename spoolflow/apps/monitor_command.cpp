@@ -12,9 +12,9 @@
 #include "spoolflow/apps/command_arguments.hpp"
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/elsewhere.hpp"
+#include "spoolflow/apps/terminal/input_kind.hpp"
 #include "spoolflow/apps/terminal/output_file.hpp"
 #include "spoolflow/apps/terminal/progress.hpp"
-#include "spoolflow/apps/terminal/suggestion.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/apps/work/corrected_model.hpp"
@@ -79,9 +79,7 @@ void say_remarks(const Remarks& remarks, const monitor::Monitor& watch) {
 void refuse_unusable(const MonitorArguments& arguments) {
   if (!arguments.adapt.empty() && std::ranges::count(arguments.recordings, "-") > 0)
     throw model::ModelError("-: a corrected model names its recordings by their checksums; --adapt needs files");
-  std::vector<Input> roles{{arguments.model, FileKind::model}};
-  for (const std::string& recording : arguments.recordings) roles.push_back({recording, FileKind::recording});
-  refuse_other_kinds("monitor", roles);
+  refuse_other_kinds("monitor", arguments.model, arguments.recordings);
   refuse_given_twice(arguments.recordings);
 }
 
@@ -91,26 +89,15 @@ void monitor_recordings(const MonitorArguments& arguments) {
   refuse_unusable(arguments);
   const model::Model model = model::read_model(arguments.model);
   if (const std::string note = type_note(model, arguments.model); !note.empty() && !arguments.quiet) say("{}\n", note);
-  recording::ChannelMap channels;
   std::vector<std::filesystem::path> inputs(arguments.recordings.begin(), arguments.recordings.end());
-  inputs.emplace_back(arguments.model);
-  if (!arguments.channels.empty()) {
-    channels = recording::read_channel_map(arguments.channels);
-    inputs.emplace_back(arguments.channels);
-  }
-  if (!arguments.baseline.empty()) inputs.emplace_back(arguments.baseline);
+  inputs.insert(inputs.end(), {arguments.model, arguments.channels, arguments.baseline});
+  const recording::ChannelMap channels = channels_from(arguments.channels);
   monitor::Monitor watch(model, {arguments.false_alarms_per_year}, read_baseline(arguments.baseline));
   const report::ReaderUnits units(arguments.units);
-  std::optional<OutputFile> page, json, corrected;
-  if (!arguments.report.empty()) {
-    page.emplace(arguments.report, inputs);
-    inputs.emplace_back(arguments.report);
-  }
-  if (!arguments.json.empty()) json.emplace(arguments.json, inputs);
-  if (!arguments.adapt.empty()) {
-    inputs.emplace_back(arguments.json);
-    corrected.emplace(arguments.adapt, inputs);
-  }
+  Outputs outputs(inputs);
+  OutputFile* const page = outputs.open_if_named(arguments.report);
+  OutputFile* const json = outputs.open_if_named(arguments.json);
+  OutputFile* const corrected = outputs.open_if_named(arguments.adapt);
   std::function<Watched(const std::string&)> watched_elsewhere;
   if (!arguments.fleet.empty()) watched_elsewhere = elsewhere().monitor(arguments);
   std::vector<std::uint64_t> samples;
@@ -141,10 +128,10 @@ void monitor_recordings(const MonitorArguments& arguments) {
     }
   }
   say_remarks(remarks, watch);
-  if (corrected) write_corrected(corrected->stream(), arguments, {model, {}, {}, samples, {}}, watch);
-  if (page) report::write_monitor_report(page->stream(), model, watch, runs, trend, units);
-  if (json) report::write_monitor_json(json->stream(), model, watch, runs, band.figures());
-  commit_together({page ? &*page : nullptr, json ? &*json : nullptr, corrected ? &*corrected : nullptr});
+  if (corrected != nullptr) write_corrected(corrected->stream(), arguments, {model, {}, {}, samples, {}}, watch);
+  if (page != nullptr) report::write_monitor_report(page->stream(), model, watch, runs, trend, units);
+  if (json != nullptr) report::write_monitor_json(json->stream(), model, watch, runs, band.figures());
+  outputs.commit();
   if (arguments.json != "-" && arguments.report != "-" && arguments.adapt != "-") print_condition(watch, model);
 }
 
@@ -172,9 +159,7 @@ void add_monitor_command(CLI::App& program) {
       ->type_name("OUT.json");
   command->add_option("--adapt", arguments->adapt, "corrected model to write: what is raised as it was found")
       ->type_name("MODEL2.json");
-  command
-      ->add_option("--channels", arguments->channels, "channel map (TOML) for files with other column names or units")
-      ->type_name("MAP.toml");
+  add_channels_option(*command, arguments->channels);
   command
       ->add_option("--false-alarms-per-year", arguments->false_alarms_per_year,
                    "wanted at most over all indicators, of a valve at work day and night")

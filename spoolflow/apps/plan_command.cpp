@@ -9,8 +9,8 @@
 
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/commands.hpp"
+#include "spoolflow/apps/terminal/input_kind.hpp"
 #include "spoolflow/apps/terminal/output_file.hpp"
-#include "spoolflow/apps/terminal/suggestion.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/calibration/type/plan_minute.hpp"
 #include "spoolflow/estimation/running_sensor.hpp"
@@ -105,19 +105,15 @@ std::string valve_in_scenario(const PlanArguments& arguments) {
 
 void plan(const PlanArguments& arguments) {
   apps::refuse_other_kinds("plan", {{arguments.type, FileKind::model}});
-  OutputFile table(arguments.table, {arguments.type, arguments.scenario, arguments.valve});
-  std::unique_ptr<OutputFile> scenario;
-  std::string valve;
-  if (!arguments.scenario.empty()) {
-    valve = valve_in_scenario(arguments);
-    scenario = std::make_unique<OutputFile>(
-        arguments.scenario, std::vector<std::filesystem::path>{arguments.type, arguments.table, arguments.valve});
-  }
+  Outputs outputs({arguments.type, arguments.valve});
+  OutputFile& table = outputs.open(arguments.table);
+  OutputFile* const scenario = outputs.open_if_named(arguments.scenario);
+  const std::string valve = scenario == nullptr ? "" : valve_in_scenario(arguments);
   const model::Model type = model::read_model(arguments.type);
   const calibration::PlannedMinute minute = calibration::plan_minute(type, arguments.type, arguments.seconds);
   write_table(table.stream(), minute);
-  if (scenario) write_scenario(scenario->stream(), minute, valve);
-  commit_together({&table, scenario.get()});
+  if (scenario != nullptr) write_scenario(scenario->stream(), minute, valve);
+  outputs.commit();
   if (!arguments.quiet) print_plan(model::of_direction(type, "b"), minute);
 }
 

@@ -17,9 +17,9 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/terminal/interruption.hpp"
 #include "spoolflow/apps/terminal/output_file.hpp"
-#include "spoolflow/apps/terminal/suggestion.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
+#include "spoolflow/recording/channels/allowed_names.hpp"
 
 namespace spoolflow::apps {
 namespace {
@@ -60,10 +60,11 @@ std::string usage_message(const CLI::App& program, const CLI::ParseError& error)
   for (const std::string& word : program.remaining(true)) {
     if (word.size() > 1 && word.front() == '-') {
       const std::string name = word.substr(0, word.find('='));
-      return fmt::format("there is no option {}{}", name, suggestion(name, option_names(command ? *command : program)));
+      return fmt::format("there is no option {}{}", name,
+                         recording::did_you_mean(name, option_names(command ? *command : program)));
     }
     if (command == nullptr) {
-      return fmt::format("there is no command '{}'{}", word, suggestion(word, command_names(program)));
+      return fmt::format("there is no command '{}'{}", word, recording::did_you_mean(word, command_names(program)));
     }
     return fmt::format("one argument too many: {}", word);
   }

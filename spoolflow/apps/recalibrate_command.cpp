@@ -7,9 +7,9 @@
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/command_arguments.hpp"
 #include "spoolflow/apps/commands.hpp"
+#include "spoolflow/apps/terminal/input_kind.hpp"
 #include "spoolflow/apps/terminal/output_file.hpp"
 #include "spoolflow/apps/terminal/progress.hpp"
-#include "spoolflow/apps/terminal/suggestion.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/apps/work/readable_model.hpp"
@@ -41,22 +41,21 @@ model::Adaptation how_from(const RecalibrateArguments& arguments) {
   return {std::string(tool_version()), model::creation_time(), model::sha256_of_file(arguments.model), {}, {}};
 }
 
-calibration::RecalibratedValve moved_on(const RecalibrateArguments& arguments, const model::Model& model) {
-  MachineFiles from{{arguments.recordings.begin(), arguments.recordings.end()}, {}, arguments.references};
-  if (!arguments.channels.empty()) from.channels = recording::read_channel_map(arguments.channels);
+calibration::RecalibratedValve moved_on(const RecalibrateArguments& arguments, const model::Model& model,
+                                        std::vector<recording::Reference> references) {
+  const MachineOil from{{arguments.recordings.begin(), arguments.recordings.end()},
+                        channels_from(arguments.channels),
+                        std::move(references)};
   Progress progress("recalibrating", arguments.quiet);
   return recalibrated(model, from, how_from(arguments));
 }
 
 /// All files that are read.
-std::vector<std::filesystem::path> inputs_of(const RecalibrateArguments& arguments) {
-  std::vector<std::filesystem::path> out{arguments.model};
+std::vector<std::filesystem::path> inputs_of(const RecalibrateArguments& arguments,
+                                             const std::vector<recording::Reference>& references) {
+  std::vector<std::filesystem::path> out{arguments.model, arguments.channels, arguments.references};
   out.insert(out.end(), arguments.recordings.begin(), arguments.recordings.end());
-  if (!arguments.channels.empty()) out.emplace_back(arguments.channels);
-  if (arguments.references.empty()) return out;
-  out.emplace_back(arguments.references);
-  for (const recording::Reference& each : recording::read_references(arguments.references))
-    if (!each.marks_file.empty()) out.push_back(each.marks_file);
+  for (const recording::Reference& each : references) out.push_back(each.marks_file);
   return out;
 }
 
@@ -74,18 +73,20 @@ void require_one_way(const RecalibrateArguments& arguments) {
 
 void recalibrate_model(const RecalibrateArguments& arguments) {
   require_one_way(arguments);
-  std::vector<Input> roles{{arguments.model, FileKind::model}};
-  for (const std::string& recording : arguments.recordings) roles.push_back({recording, FileKind::recording});
-  if (!arguments.references.empty()) roles.push_back({arguments.references, FileKind::settings, "--references "});
-  refuse_other_kinds("recalibrate", roles);
+  std::vector<Input> settings;
+  if (!arguments.references.empty()) settings.push_back({arguments.references, FileKind::settings, "--references "});
+  refuse_other_kinds("recalibrate", arguments.model, arguments.recordings, settings);
   const model::Model model = model::read_model(arguments.model);
   calibration::require_movable(model);
-  OutputFile output(arguments.output, inputs_of(arguments));
+  std::vector<recording::Reference> references;
+  if (!arguments.back_to) references = recording::read_references(arguments.references);
+  Outputs outputs(inputs_of(arguments, references));
+  OutputFile& output = outputs.open(arguments.output);
   const calibration::RecalibratedValve valve =
       arguments.back_to ? calibration::gone_back(model, *arguments.back_to, how_from(arguments))
-                        : moved_on(arguments, model);
+                        : moved_on(arguments, model, std::move(references));
   output.stream() << readable_text(valve.model, arguments.output);
-  commit_together({&output});
+  outputs.commit();
   for (const std::string& doubt : valve.doubts) say("spoolflow: doubt: {}\n", doubt);
   if (!arguments.quiet) print_findings(valve);
 }
@@ -113,9 +114,7 @@ void add_recalibrate_command(CLI::App& program) {
   command->add_option("-o,--output", arguments->output, "model file to write, - for standard output")
       ->type_name("MODEL2.json")
       ->required();
-  command
-      ->add_option("--channels", arguments->channels, "channel map (TOML) for files with other column names or units")
-      ->type_name("MAP.toml");
+  add_channels_option(*command, arguments->channels);
   add_quiet(*command, arguments->quiet);
   command->callback([arguments] { recalibrate_model(*arguments); });
 }

@@ -16,13 +16,9 @@
 namespace spoolflow::apps {
 void simulate(const SimulateArguments& arguments) {
   const rig::Scenario scenario = rig::read_scenario(arguments.scenario);
-  const std::vector<std::filesystem::path> inputs{arguments.scenario, scenario.valve_file};
-  OutputFile recording(arguments.recording, inputs);
-  std::unique_ptr<OutputFile> truth;
-  if (!arguments.truth.empty()) {
-    truth = std::make_unique<OutputFile>(arguments.truth,
-                                         std::vector<std::filesystem::path>{inputs[0], inputs[1], arguments.recording});
-  }
+  Outputs outputs({arguments.scenario, scenario.valve_file});
+  OutputFile& recording = outputs.open(arguments.recording);
+  OutputFile* const truth = outputs.open_if_named(arguments.truth);
   for (const std::string& output : {arguments.recording, arguments.truth}) recording::refuse_other_than_csv(output);
   const rig::PlannedScenario planned = rig::plan(scenario);
   rig::Simulation simulation;
@@ -33,8 +29,8 @@ void simulate(const SimulateArguments& arguments) {
                       {.with_truth = truth != nullptr, .progress = [&](double share) { progress.update(share); }});
   }
   rig::write_recording(recording.stream(), simulation.recording, planned.run);
-  if (truth) rig::write_truth(truth->stream(), simulation.truth);
-  commit_together({truth.get(), &recording});
+  if (truth != nullptr) rig::write_truth(truth->stream(), simulation.truth);
+  outputs.commit();
 }
 
 void add_simulate_command(CLI::App& program) {

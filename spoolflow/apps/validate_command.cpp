@@ -10,9 +10,9 @@
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/command_arguments.hpp"
 #include "spoolflow/apps/commands.hpp"
+#include "spoolflow/apps/terminal/input_kind.hpp"
 #include "spoolflow/apps/terminal/output_file.hpp"
 #include "spoolflow/apps/terminal/progress.hpp"
-#include "spoolflow/apps/terminal/suggestion.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/work/notes.hpp"
 #include "spoolflow/calibration/environment.hpp"
@@ -88,30 +88,23 @@ void print_figures(const model::Model& model, const validation::Validation& vali
 }  // namespace
 
 void validate(const ValidateArguments& arguments) {
-  std::vector<Input> roles{{arguments.model, FileKind::model}};
-  for (const std::string& recording : arguments.recordings) roles.push_back({recording, FileKind::recording});
-  refuse_other_kinds("validate", roles);
+  refuse_other_kinds("validate", arguments.model, arguments.recordings);
   const report::ReaderUnits units(arguments.units);
   model::Model model = model::read_model(arguments.model);
   if (const std::string note = type_note(model, arguments.model); !note.empty() && !arguments.quiet) say("{}\n", note);
   if (!arguments.environment.empty()) calibration::apply(recording::read_environment(arguments.environment), model);
   validation::ValidationOptions options{chosen(arguments.estimator, model), {}, {}, arguments.apply_reference_lag};
   if (arguments.reference_lag_ms) options.reference_lag_s = *arguments.reference_lag_ms * 1e-3;
-  if (!arguments.channels.empty()) options.channels = recording::read_channel_map(arguments.channels);
+  options.channels = channels_from(arguments.channels);
   if (!arguments.requirements.empty()) options.requirements = validation::read_requirements(arguments.requirements);
   std::vector<report::ComparedValidation> others;
   for (const std::string& metrics : arguments.compare) others.push_back(report::read_compared(metrics));
-  std::vector<std::filesystem::path> inputs{arguments.model};
+  std::vector<std::filesystem::path> inputs{arguments.model, arguments.channels, arguments.requirements,
+                                            arguments.environment};
   inputs.insert(inputs.end(), arguments.recordings.begin(), arguments.recordings.end());
-  if (!arguments.channels.empty()) inputs.emplace_back(arguments.channels);
-  if (!arguments.requirements.empty()) inputs.emplace_back(arguments.requirements);
-  if (!arguments.environment.empty()) inputs.emplace_back(arguments.environment);
   inputs.insert(inputs.end(), arguments.compare.begin(), arguments.compare.end());
-  std::optional<OutputFile> page;
-  std::optional<OutputFile> figures;
-  if (!arguments.report.empty()) page.emplace(arguments.report, inputs);
-  if (!arguments.report.empty()) inputs.emplace_back(arguments.report);
-  if (!arguments.json.empty()) figures.emplace(arguments.json, inputs);
+  Outputs outputs(inputs);
+  OutputFile *const page = outputs.open_if_named(arguments.report), *figures = outputs.open_if_named(arguments.json);
   validation::Validation validation;
   {
     Progress progress("validating", arguments.quiet);
@@ -121,9 +114,9 @@ void validate(const ValidateArguments& arguments) {
   for (const validation::RunResult& run : validation.runs) {
     if (!run.resampled.empty()) say("{}: {}\n", run.file, run.resampled);
   }
-  if (page) report::write_validation_report(page->stream(), model, validation, others, units);
-  if (figures) report::write_metrics(figures->stream(), model, validation);
-  commit_together({page ? &*page : nullptr, figures ? &*figures : nullptr});
+  if (page != nullptr) report::write_validation_report(page->stream(), model, validation, others, units);
+  if (figures != nullptr) report::write_metrics(figures->stream(), model, validation);
+  outputs.commit();
   if (arguments.json != "-" && arguments.report != "-") {
     print_figures(model, validation);
     print_meters(validation);
@@ -149,9 +142,7 @@ void add_validate_command(CLI::App& program) {
       command->add_option("--report", arguments->report, "HTML report to write")->type_name("REPORT.html");
   command->add_option("--json", arguments->json, "figures to write as JSON; - for standard output")
       ->type_name("METRICS.json");
-  command
-      ->add_option("--channels", arguments->channels, "channel map (TOML) for files with other column names or units")
-      ->type_name("MAP.toml");
+  add_channels_option(*command, arguments->channels);
   CLI::Option* requirements =
       command
           ->add_option("--requirements", arguments->requirements, "limits (TOML) against which the figures are judged")

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/channels/allowed_names.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/toml_input.hpp"
 #include "spoolflow/units/conversion.hpp"
@@ -17,17 +16,6 @@ namespace {
 constexpr std::array<std::string_view, 7> protocol_names{"spring",          "solenoid_force_map",    "solenoid_dynamic",
                                                          "axial_force_map", "unpressurised_strokes", "metering",
                                                          "operation"};
-
-Protocol protocol_of(const TomlTable& entry) {
-  const std::string written = entry.text("protocol");
-  const auto found = std::find(protocol_names.begin(), protocol_names.end(), written);
-  if (found == protocol_names.end()) {
-    const std::vector<std::string> allowed(protocol_names.begin(), protocol_names.end());
-    throw RecordingError(fmt::format("{}: unknown protocol \"{}\"{}; allowed: {}", entry.place("protocol"), written,
-                                     did_you_mean(written, allowed), listed(allowed)));
-  }
-  return static_cast<Protocol>(found - protocol_names.begin());
-}
 
 CampaignTolerances tolerances_of(const TomlTable& table) {
   CampaignTolerances out{place_of(table.table, table.file), {}};
@@ -65,15 +53,7 @@ CampaignInstruments unit_instruments_of(const TomlTable& table) {
 
 CampaignLoad load_of(const TomlTable& table) {
   table.allow_only({"area_ratio"});
-  constexpr double least = 0.1, most = 10;
-  const double ratio = table.positive("area_ratio");
-  if (ratio < least || ratio > most) {
-    throw RecordingError(
-        fmt::format("{}: an area ratio of {} is no cylinder's; give the piston's area at port A over that at port B, "
-                    "{} to {}",
-                    table.place("area_ratio"), ratio, least, most));
-  }
-  return {ratio};
+  return {table.within("area_ratio", {0.1, 10, "give the piston's area at port A over that at port B"})};
 }
 
 /// The edge that an axial-force map or a flow bench's strokes are of, empty where it is of all that the oil passes;
@@ -122,7 +102,7 @@ void refuse_outside(const std::filesystem::path& recording, const TomlTable& ent
 
 CampaignRecording recording_of(const TomlTable& entry, const CampaignValve& valve, OutsideFiles outside) {
   entry.allow_only({"protocol", "file", "direction", "edge", "channels"});
-  CampaignRecording out{protocol_of(entry),
+  CampaignRecording out{static_cast<Protocol>(entry.choice("protocol", protocol_names)),
                         entry.file.parent_path() / entry.text("file"),
                         {},
                         place_of(entry.table, entry.file),

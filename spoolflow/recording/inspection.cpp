@@ -97,8 +97,8 @@ struct OwnNames {
 OwnNames own_names(const FileContents& contents, const Proposal& proposal, bool several_clocks) {
   OwnNames out;
   std::size_t times = 0, others = 0;
-  for (std::size_t k = 0; k < contents.columns.size(); ++k) {
-    const auto header = channel_header(contents.column(k));
+  for (const FileColumn& column : contents.columns) {
+    const auto header = channel_header(column);
     if (!header) continue;
     out.of_a_unit = out.of_a_unit || !header->unit.empty();
     ++(header->channel == Channel::time ? times : others);
@@ -196,12 +196,12 @@ void guess_unit_of_time(Inspection& out, const std::vector<SurveyedColumn>& colu
 /// Guesses by data what names do not state, and says of every column what it is taken for.
 void look_at_columns(Inspection& out, const Proposal& proposal, std::vector<SurveyedColumn> columns) {
   for (std::size_t k = 0; k < columns.size(); ++k) {
-    columns[k].unit = out.contents.units[k];
-    columns[k].said = named_time(out.contents.column(k)) ? Channel::time : proposal.said[k];
+    columns[k].unit = out.contents.columns[k].unit;
+    columns[k].said = named_time(out.contents.columns[k]) ? Channel::time : proposal.said[k];
   }
   std::map<Channel, std::size_t> known;
   for (const auto& [channel, source] : out.proposal.sources) {
-    const auto found = std::ranges::find(out.contents.columns, source.column);
+    const auto found = std::ranges::find(out.contents.columns, source.column, &FileColumn::name);
     known.emplace(channel, static_cast<std::size_t>(found - out.contents.columns.begin()));
   }
   const std::map<Channel, DataGuess> guesses = guess_by_data(columns, known);
@@ -231,7 +231,7 @@ void look_at_columns(Inspection& out, const Proposal& proposal, std::vector<Surv
     }
     if (taken == known.end()) {
       each.why = character_of(columns[k]);
-      const FileColumn named = out.contents.column(k);
+      const FileColumn& named = out.contents.columns[k];
       if (!named.name.ends_with(named.leaf))
         each.why += (each.why.empty() ? "" : "; ") + ("labelled '" + named.leaf + "'");
       continue;
@@ -239,7 +239,7 @@ void look_at_columns(Inspection& out, const Proposal& proposal, std::vector<Surv
     each.channel = taken->first;
     const auto reason = reasons.find(taken->first);
     each.guessed = reason != reasons.end();
-    each.why = each.guessed ? reason->second : how_known(out.contents.column(k), taken->first);
+    each.why = each.guessed ? reason->second : how_known(out.contents.columns[k], taken->first);
     if (columns[k].samples == 0 || columns[k].text.count > 0) each.why += "; " + character_of(columns[k]);
   }
 }

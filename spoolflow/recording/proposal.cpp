@@ -240,7 +240,7 @@ void propose_by_words(Proposal& out, const FileContents& contents, const std::ve
                           (channel == Channel::voltage && known(Channel::voltage_a));
     if (channel == Channel::time || known(channel) || of_coils || columns.size() != 1) continue;
     const auto& [column, word] = columns.front();
-    out.map.sources.emplace(channel, ChannelSource{contents.columns[column], names[column].unit, 1.0, 0.0, {}});
+    out.map.sources.emplace(channel, ChannelSource{contents.columns[column].name, names[column].unit, 1.0, 0.0, {}});
     out.by_word.emplace(channel, word);
   }
 }
@@ -273,24 +273,24 @@ Proposal propose_channels(const FileContents& contents, const std::vector<bool>&
   std::vector<bool> own(contents.columns.size(), false);
   std::vector<std::optional<ChannelHeader>> headers;
   for (std::size_t k = 0; k < own.size(); ++k) {
-    headers.push_back(channel_header(contents.column(k)));
+    headers.push_back(channel_header(contents.columns[k]));
     own[k] = headers[k].has_value() || holds_none(k);
   }
   for (const bool exact : {true, false}) {
     for (std::size_t k = 0; k < own.size(); ++k) {
       if (headers[k] && headers[k]->exact == exact && !holds_none(k))
-        propose(headers[k]->channel, contents.columns[k], headers[k]->unit);
+        propose(headers[k]->channel, contents.columns[k].name, headers[k]->unit);
     }
   }
   std::vector<NameParts> names;
-  for (std::size_t k = 0; k < own.size(); ++k) names.push_back(parts_of(contents.leaves[k], contents.units[k]));
+  for (const FileColumn& column : contents.columns) names.push_back(parts_of(column.leaf, column.unit));
   out.all_ports = has_all_ports(names);
   for (const bool with_unit : {true, false}) {
     found.clear();
     for (std::size_t k = 0; k < own.size(); ++k) {
       if (own[k] || names[k].unit.empty() == with_unit) continue;
       if (const auto channel = channel_called(names[k], out.all_ports)) {
-        propose(*channel, contents.columns[k], names[k].unit);
+        propose(*channel, contents.columns[k].name, names[k].unit);
         own[k] = true;
       }
     }

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "spoolflow/recording/channels/allowed_names.hpp"
+#include "spoolflow/recording/channels/byte_order_mark.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/files/decimal_number.hpp"
 #include "spoolflow/recording/toml_input.hpp"
@@ -26,37 +26,10 @@ constexpr std::array<std::string_view, 2> direction_names{"b", "a"};
 constexpr double rad_per_s_per_rpm = std::numbers::pi / 30;
 constexpr double percent = 0.01, m2_per_cm2 = 1e-4, m3_per_cm3 = 1e-6;
 
-template <std::size_t count>
-std::size_t choice(const TomlTable& table, const char* key, const std::array<std::string_view, count>& names) {
-  const std::string written = table.text(key);
-  const auto found = std::find(names.begin(), names.end(), written);
-  if (found == names.end()) {
-    const std::vector<std::string> allowed(names.begin(), names.end());
-    throw RecordingError(fmt::format("{}: {} = \"{}\" is not known{}; allowed: {}", table.place(key), key, written,
-                                     did_you_mean(written, allowed), listed(allowed)));
-  }
-  return static_cast<std::size_t>(found - names.begin());
-}
-
-struct Range {
-  double least, most;
-  const char* what;
-};
-
-/// The number of a key within its range, or `otherwise` where it is not given.
-double number_within(const TomlTable& table, const char* key, const Range& range,
-                     std::optional<double> otherwise = {}) {
-  const std::optional<double> written = otherwise ? table.optional_number(key) : table.number(key);
-  if (!written) return *otherwise;
-  if (*written >= range.least && *written <= range.most) return *written;
-  throw RecordingError(fmt::format("{}: {} = {} is out of range; give {}, {} to {}", table.place(key), key, *written,
-                                   range.what, range.least, range.most));
-}
-
 /// The columns of a file of marks in their order, the last for a pump.
 constexpr std::array<std::string_view, 3> mark_columns{"begin_s", "end_s", "speed_rpm"};
 
-constexpr Range any_speed{1, 1e5, "the pump's speed in turns a minute"};
+constexpr NumberRange any_speed{1, 1e5, "give the pump's speed in turns a minute"};
 
 /// Cells of a line between commas, semicolons, tabs or blanks, without quotes. Beside semicolons or tabs a comma is a
 /// decimal sign.
@@ -101,8 +74,8 @@ TimeMark mark_of(const std::string& line, const std::string& place, std::size_t 
   }
   if (row.size() == 2) return {row[0], row[1], std::numeric_limits<double>::quiet_NaN()};
   if (!(row[2] >= any_speed.least && row[2] <= any_speed.most)) {
-    throw RecordingError(fmt::format("{}: speed_rpm = {} is out of range; give {}, {} to {}, or leave the row out",
-                                     place, row[2], any_speed.what, any_speed.least, any_speed.most));
+    throw RecordingError(fmt::format("{}: speed_rpm = {} is not between {} and {}; {}, or leave the row out", place,
+                                     row[2], any_speed.least, any_speed.most, any_speed.otherwise));
   }
   return {row[0], row[1], row[2] * rad_per_s_per_rpm};
 }
@@ -114,13 +87,12 @@ std::vector<TimeMark> marks_of(const TomlTable& table, const std::filesystem::pa
     throw RecordingError(fmt::format("{}: the file of marks {} cannot be read; correct marks = \"{}\" or put it there",
                                      table.place("marks"), file.string(), table.text("marks")));
   }
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   std::vector<TimeMark> out;
   std::string line;
   std::size_t number = 0, columns = 0;
   while (std::getline(in, line)) {
     const std::string place = fmt::format("{}, line {}", file.string(), ++number);
-    if (number == 1 && line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
+    if (number == 1) line = std::string(without_byte_order_mark(line));
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (line.empty() || line.starts_with('#')) continue;
     if (columns == 0) {
@@ -145,32 +117,37 @@ void read_marks(const TomlTable& table, Reference& out) {
   out.marks = marks_of(table, out.marks_file);
 }
 
-constexpr Range any_percent{0.05, 20, "the half width at 95 % in percent"};
-constexpr Range any_leakage{0, 20, "the half width at 95 % in L/min"};
+constexpr NumberRange any_percent{0.05, 20, "give the half width at 95 % in percent"};
+constexpr NumberRange any_leakage{0, 20, "give the half width at 95 % in L/min"};
+
+/// In the unit of the key, or `otherwise` where it is not given.
+double within(const TomlTable& table, std::string_view key, const NumberRange& range, double otherwise) {
+  return table.optional_within(key, range).value_or(otherwise);
+}
 
 void read_stroke(const TomlTable& table, Reference& out) {
   table.allow_only({"kind", "name", "recording", "direction", "ends", "marks", "area_cm2", "length_mm",
                     "area_uncertainty_percent", "length_uncertainty_mm", "seal_leakage_L_min", "oil_column_cm3",
                     "highest_pressure_bar"});
-  out.ends = static_cast<EndsSeen>(choice(table, "ends", end_names));
+  out.ends = static_cast<EndsSeen>(table.choice("ends", end_names));
   if (out.ends == EndsSeen::marks) read_marks(table, out);
   if (out.ends != EndsSeen::marks && table.optional_text("marks")) {
     throw RecordingError(fmt::format("{}: marks stands with ends = \"{}\"; leave marks out, or write ends = \"marks\"",
                                      table.place("marks"), end_names[static_cast<std::size_t>(out.ends)]));
   }
-  out.area_m2 = number_within(table, "area_cm2", {0.1, 1e4, "the area that the oil fills in cm2"}) * m2_per_cm2;
-  out.length_m = number_within(table, "length_mm", {5, 2e4, "the way from end to end in mm"}) * 1e-3;
-  out.share_uncertainty = number_within(table, "area_uncertainty_percent", any_percent, 0.5) * percent;
+  out.area_m2 = table.within("area_cm2", {0.1, 1e4, "give the area that the oil fills in cm2"}) * m2_per_cm2;
+  out.length_m = units::m_from_mm(table.within("length_mm", {5, 2e4, "give the way from end to end in mm"}));
+  out.share_uncertainty = within(table, "area_uncertainty_percent", any_percent, 0.5) * percent;
   out.length_uncertainty_m =
-      number_within(table, "length_uncertainty_mm", {0, 0.2e3 * out.length_m, "the half width at 95 % in mm"}, 1) *
-      1e-3;
+      units::m_from_mm(within(table, "length_uncertainty_mm",
+                              {0, 0.2 * units::mm_from_m(out.length_m), "give the half width at 95 % in mm"}, 1));
   out.leakage_uncertainty_m3_per_s =
-      units::m3_per_s_from_L_per_min(number_within(table, "seal_leakage_L_min", any_leakage, 0.1));
+      units::m3_per_s_from_L_per_min(within(table, "seal_leakage_L_min", any_leakage, 0.1));
   constexpr double bulk_modulus_Pa = 1.4e9;  // oil in hoses, with its air
   const double column_m3 =
-      number_within(table, "oil_column_cm3", {0, 1e6, "oil between valve and piston in cm3"}, 0.0) * m3_per_cm3;
+      within(table, "oil_column_cm3", {0, 1e6, "give the oil between valve and piston in cm3"}, 0) * m3_per_cm3;
   const double highest_Pa = units::Pa_from_bar(
-      number_within(table, "highest_pressure_bar", {1, 1000, "the highest pressure there in bar"}, 200.0));
+      within(table, "highest_pressure_bar", {1, 1000, "give the highest pressure there in bar"}, 200));
   out.compression_m3 = column_m3 * highest_Pa / bulk_modulus_Pa;
 }
 
@@ -179,38 +156,38 @@ void read_pump(const TomlTable& table, Reference& out) {
                     "displacement_uncertainty_percent", "leakage_uncertainty_L_min"});
   read_marks(table, out);
   out.displacement_m3_per_rad =
-      number_within(table, "displacement_cm3", {0.1, 1e4, "what the pump displaces a turn in cm3"}) * m3_per_cm3 /
+      table.within("displacement_cm3", {0.1, 1e4, "give what the pump displaces a turn in cm3"}) * m3_per_cm3 /
       (2 * std::numbers::pi);
+  const NumberRange speeds{any_speed.least, any_speed.most,
+                           "give the pump's speed in turns a minute, or a third column speed_rpm among the marks"};
   const bool each = std::ranges::all_of(out.marks, [](const TimeMark& mark) { return mark.speed_rad_per_s > 0; });
-  const Range speeds{any_speed.least, any_speed.most,
-                     "the pump's speed in turns a minute, or a third column speed_rpm among the marks"};
   out.speed_rad_per_s =
-      number_within(table, "speed_rpm", speeds, each ? std::optional(1.0) : std::nullopt) * rad_per_s_per_rpm;
+      (each ? within(table, "speed_rpm", speeds, 1) : table.within("speed_rpm", speeds)) * rad_per_s_per_rpm;
   out.leakage_m3_per_s = units::m3_per_s_from_L_per_min(
-      number_within(table, "leakage_L_min", {0, 1e3, "what the pump loses at work in L/min"}, 0.0));
-  out.share_uncertainty = number_within(table, "displacement_uncertainty_percent", any_percent, 1.0) * percent;
+      within(table, "leakage_L_min", {0, 1e3, "give what the pump loses at work in L/min"}, 0));
+  out.share_uncertainty = within(table, "displacement_uncertainty_percent", any_percent, 1) * percent;
   out.leakage_uncertainty_m3_per_s =
-      units::m3_per_s_from_L_per_min(number_within(table, "leakage_uncertainty_L_min", any_leakage, 0.3));
+      units::m3_per_s_from_L_per_min(within(table, "leakage_uncertainty_L_min", any_leakage, 0.3));
 }
 
 void read_meter(const TomlTable& table, Reference& out) {
   table.allow_only(
       {"kind", "name", "recording", "direction", "uncertainty_percent", "zero_uncertainty_L_min", "interval_s"});
-  out.share_uncertainty = number_within(table, "uncertainty_percent", any_percent, 1.0) * percent;
+  out.share_uncertainty = within(table, "uncertainty_percent", any_percent, 1) * percent;
   out.leakage_uncertainty_m3_per_s =
-      units::m3_per_s_from_L_per_min(number_within(table, "zero_uncertainty_L_min", any_leakage, 0.1));
-  out.interval_s =
-      number_within(table, "interval_s", {0.5, 3600, "the time in s over which the meter is averaged"}, 2.0);
+      units::m3_per_s_from_L_per_min(within(table, "zero_uncertainty_L_min", any_leakage, 0.1));
+  out.interval_s = within(table, "interval_s", {0.5, 3600, "give the time in s over which the meter is averaged"}, 2);
 }
 
 Reference reference_of(const TomlTable& table, std::size_t number) {
   Reference out;
-  out.kind = static_cast<ReferenceKind>(choice(table, "kind", kind_names));
+  out.kind = static_cast<ReferenceKind>(table.choice("kind", kind_names));
   out.place = place_of(table.table, table.file);
   out.name = table.optional_text("name").value_or(fmt::format("{} {}", name(out.kind), number));
   out.recording = table.optional_text("recording").value_or("");
-  if (out.kind != ReferenceKind::closed && table.optional_text("direction"))
-    out.direction = direction_names[choice(table, "direction", direction_names)];
+  if (const auto direction = table.optional_choice("direction", direction_names);
+      direction && out.kind != ReferenceKind::closed)
+    out.direction = direction_names[*direction];
   if (out.kind == ReferenceKind::stroke) read_stroke(table, out);
   if (out.kind == ReferenceKind::pump) read_pump(table, out);
   if (out.kind == ReferenceKind::meter) read_meter(table, out);

@@ -112,6 +112,22 @@ std::string TomlTable::text(std::string_view key) const {
   return *value;
 }
 
+std::optional<std::size_t> TomlTable::optional_choice(std::string_view key,
+                                                      std::span<const std::string_view> names) const {
+  const std::optional<std::string> written = optional_text(key);
+  if (!written) return std::nullopt;
+  const auto found = std::ranges::find(names, *written);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  const std::vector<std::string> allowed(names.begin(), names.end());
+  throw RecordingError(fmt::format("{}: {} = \"{}\" is not known{}; allowed: {}", place(key), key, *written,
+                                   did_you_mean(*written, allowed), listed(allowed)));
+}
+
+std::size_t TomlTable::choice(std::string_view key, std::span<const std::string_view> names) const {
+  (void)text(key);
+  return *optional_choice(key, names);
+}
+
 std::optional<std::vector<std::string>> TomlTable::list_of_texts(std::string_view key) const {
   const toml::node* const node = table.get(key);
   const toml::array* const list = node == nullptr ? nullptr : node->as_array();
@@ -150,7 +166,7 @@ std::optional<double> TomlTable::optional_positive(std::string_view key) const {
 }
 
 std::optional<double> TomlTable::optional_within(std::string_view key, const NumberRange& range) const {
-  const auto value = optional_positive(key);
+  const auto value = range.least > 0 ? optional_positive(key) : optional_number(key);
   if (!value || (*value >= range.least && *value <= range.most)) return value;
   throw RecordingError(fmt::format("{}: {} = {:g} is not between {:g} and {:g}; {}", place(key), key, *value,
                                    range.least, range.most, range.otherwise));

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,6 +46,10 @@ struct TomlTable {
   /// Throw RecordingError where the key is missing (the required ones), or its value is of another type.
   [[nodiscard]] std::string text(std::string_view key) const;
   [[nodiscard]] std::optional<std::string> optional_text(std::string_view key) const;
+  /// Which of the names the text is. Throw RecordingError, which lists the names, where it is none of them.
+  [[nodiscard]] std::size_t choice(std::string_view key, std::span<const std::string_view> names) const;
+  [[nodiscard]] std::optional<std::size_t> optional_choice(std::string_view key,
+                                                           std::span<const std::string_view> names) const;
   /// Nothing where the key is missing, or its value is no list of texts alone.
   [[nodiscard]] std::optional<std::vector<std::string>> list_of_texts(std::string_view key) const;
   [[nodiscard]] double number(std::string_view key) const;
@@ -52,7 +57,7 @@ struct TomlTable {
   /// As number(), and above zero.
   [[nodiscard]] double positive(std::string_view key) const;
   [[nodiscard]] std::optional<double> optional_positive(std::string_view key) const;
-  /// As positive(), and within the range.
+  /// As number(), and within the range.
   [[nodiscard]] double within(std::string_view key, const NumberRange& range) const;
   [[nodiscard]] std::optional<double> optional_within(std::string_view key, const NumberRange& range) const;
   [[nodiscard]] std::string place(std::string_view key) const;

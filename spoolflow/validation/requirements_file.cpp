@@ -20,15 +20,10 @@ constexpr std::array estimator_names{Named<estimation::Estimator>{estimation::Es
 template <class Value, std::size_t count>
 std::optional<Value> one_of(const TomlTable& table, std::string_view key,
                             const std::array<Named<Value>, count>& names) {
-  const std::optional<std::string> written = table.optional_text(key);
-  if (!written) return std::nullopt;
-  std::vector<std::string> allowed;
-  for (const Named<Value>& each : names) {
-    if (each.name == *written) return each.value;
-    allowed.emplace_back(each.name);
-  }
-  throw RecordingError(fmt::format("{}: '{}' in {} is \"{}\"{}; allowed: {}", table.place(key), key, table.name,
-                                   *written, recording::did_you_mean(*written, allowed), recording::listed(allowed)));
+  std::array<std::string_view, count> allowed;
+  std::ranges::transform(names, allowed.begin(), &Named<Value>::name);
+  const std::optional<std::size_t> chosen = table.optional_choice(key, allowed);
+  return chosen ? std::optional(names[*chosen].value) : std::nullopt;
 }
 
 bool is_share(Figure figure) {

@@ -72,7 +72,7 @@ TEST(Campaign, NamesFileAndLineOfWhatItRefuses) {
               HasSubstr("[valve] needs a key 'stroke_mm'"));
   EXPECT_THAT(refused_campaign("[valve]\nname = A\n"), HasSubstr("campaign.toml, line 2: "));
   EXPECT_THAT(refused_campaign(with_recording("protocol = \"sprung\"\nfile = \"spring.csv\"\n")),
-              HasSubstr("line 6: unknown protocol \"sprung\"; did you mean 'spring'?"));
+              HasSubstr("line 6: protocol = \"sprung\" is not known; did you mean 'spring'?"));
   EXPECT_THAT(refused_campaign(with_recording("protocol = \"spring\"\nfile = \"lost.csv\"\n")),
               HasSubstr("campaign.toml, line 7: the recording"));
 }
@@ -194,9 +194,10 @@ TEST(Campaign, RefusesEdgesThatMakeNoPath) {
 }
 
 TEST(Campaign, RefusesAnAreaRatioThatIsNoCylinders) {
-  EXPECT_THAT(refused_campaign(maps_with({""}, "[load]\narea_ratio = 60\n")),
-              HasSubstr("line 6: an area ratio of 60 is no cylinder's; give the piston's area at port A over that at "
-                        "port B, 0.1 to 10"));
+  EXPECT_THAT(
+      refused_campaign(maps_with({""}, "[load]\narea_ratio = 60\n")),
+      HasSubstr("line 6: area_ratio = 60 is not between 0.1 and 10; give the piston's area at port A over that at "
+                "port B"));
   EXPECT_THAT(refused_campaign(maps_with({""}, "[load]\narea_ratio = 0\n")), HasSubstr("it must be above zero"));
   EXPECT_THAT(refused_campaign(maps_with({""}, "[load]\nratio = 0.6\n")), HasSubstr("unknown key 'ratio' in [load]"));
 }

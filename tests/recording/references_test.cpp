@@ -76,8 +76,9 @@ TEST(References, NoNumberOfAMarkIsTakenForAnother) {
       refused_reference(pump, "begin_s,end_s\n1,7,855\n"),
       HasSubstr("line 2: has 3 numbers for the columns begin_s, end_s; write one number a column, and a decimal "
                 "comma with semicolons"));
-  EXPECT_THAT(refused_reference(pump, "begin_s,end_s,speed_rpm\n1,9,1500\n10,19,-1500\n"),
-              HasSubstr("line 3: speed_rpm = -1500 is out of range; give the pump's speed in turns a minute, 1 to"));
+  EXPECT_THAT(
+      refused_reference(pump, "begin_s,end_s,speed_rpm\n1,9,1500\n10,19,-1500\n"),
+      HasSubstr("line 3: speed_rpm = -1500 is not between 1 and 100000; give the pump's speed in turns a minute"));
   EXPECT_THAT(refused_reference(pump, "begin_s,end_s,speed_rpm\n1,9,0\n"), HasSubstr("speed_rpm = 0"));
 }
 
@@ -98,12 +99,12 @@ TEST(References, WhatIsWrongIsNamedWithItsLineAndWhatIsAllowed) {
               HasSubstr("line 6"));
   EXPECT_THAT(
       refused_reference("[[reference]]\nkind = \"meter\"\nuncertainty_percent = 0.01\n"),
-      HasSubstr("uncertainty_percent = 0.01 is out of range; give the half width at 95 % in percent, 0.05 to 20"));
+      HasSubstr("uncertainty_percent = 0.01 is not between 0.05 and 20; give the half width at 95 % in percent"));
   EXPECT_THAT(refused_reference(stroke + "area_cm2 = 40\nlength_mm = 0.65\n", "begin_s,end_s\n1,2\n"),
-              HasSubstr("length_mm = 0.65 is out of range"));
+              HasSubstr("length_mm = 0.65 is not between 5 and 20000"));
   EXPECT_THAT(refused_reference(stroke + "area_cm2 = 40\nlength_mm = 650\nlength_uncertainty_mm = 131\n",
                                 "begin_s,end_s\n1,2\n"),
-              HasSubstr("give the half width at 95 % in mm, 0 to 130"));
+              HasSubstr("= 131 is not between 0 and 130; give the half width at 95 % in mm"));
   EXPECT_THAT(refused_reference(stroke + "area_cm2 = 40\nlength_mm = 650\n", "begin_s,end_s\n1,3\n2,4\n"),
               HasSubstr("line 3"));
   EXPECT_THAT(refused_reference(stroke + "area_cm2 = 40\nlength_mm = 650\n", "begin_s,end_s\n1,two\n"),

@@ -117,8 +117,7 @@ TEST(OtherNames, OfAChannelThatIsNeededStandInItsRefusal) {
 
 ChannelMap proposed(const std::vector<std::string>& columns) {
   FileContents contents;
-  contents.columns = contents.leaves = columns;
-  contents.units.resize(columns.size());
+  for (const std::string& column : columns) contents.columns.push_back({column, column, ""});
   return propose_channels(contents).map;
 }
 

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "spoolflow/recording/channels/byte_order_mark.hpp"
+
 namespace spoolflow::live {
 namespace {
 
@@ -29,8 +31,7 @@ bool is_header(std::string_view line) {
 
 MessageText text_of_csv(std::string_view message) {
   MessageText out;
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (message.starts_with(byte_order_mark)) message.remove_prefix(byte_order_mark.size());
+  message = recording::without_byte_order_mark(message);
   const std::string_view first = message.substr(0, message.find('\n'));
   if (is_header(first)) {
     out.header = first;

@@ -121,7 +121,7 @@ py::tuple recalibrate(const SharedModel& model, const std::vector<Path>& recordi
                       const std::optional<Path>& channels, const Path& references) {
   return with_findings(at_work([&](SignalCheck&) {
     const recording::ChannelMap map = channels ? recording::read_channel_map(*channels) : recording::ChannelMap{};
-    return apps::recalibrated(model->model, {recordings, map, references}, how_from(model));
+    return apps::recalibrated(model->model, {recordings, map, recording::read_references(references)}, how_from(model));
   }));
 }
 

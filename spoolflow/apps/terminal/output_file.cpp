@@ -313,13 +313,15 @@ void OutputFile::commit() {
   interruption_output_state(OutputState::file_finished);
 }
 
-void commit_together(std::initializer_list<OutputFile*> outputs) {
-  for (OutputFile* output : outputs) {
-    if (output != nullptr) output->finish();
-  }
-  for (OutputFile* output : outputs) {
-    if (output != nullptr) output->commit();
-  }
+OutputFile& Outputs::open(const fs::path& target) {
+  files_.push_back(std::make_unique<OutputFile>(target, used_));
+  used_.push_back(target);
+  return *files_.back();
+}
+
+void Outputs::commit() {
+  for (const auto& file : files_) file->finish();
+  for (const auto& file : files_) file->commit();
 }
 
 void make_output_folder(const fs::path& folder) {

@@ -1,11 +1,12 @@
 #pragma once
 /// The only place that opens outputs. A file appears under its name only when it is complete.
 #include <filesystem>
-#include <initializer_list>
 #include <memory>
 #include <ostream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "spoolflow/recording/written_tables/table_output.hpp"
@@ -59,8 +60,32 @@ class OutputFile : public recording::TableOutput {
   std::unique_ptr<OutputFile> scratch_;
 };
 
-/// Commits several outputs of one run: none appears before all are finished. Null pointers are left out.
-void commit_together(std::initializer_list<OutputFile*> outputs);
+/// The outputs of one command, none of which is one of its inputs or another output.
+class Outputs {
+ public:
+  /// `inputs`: files that the command reads; a name that is empty is none.
+  explicit Outputs(std::vector<std::filesystem::path> inputs = {}) : used_(std::move(inputs)) {
+    std::erase(used_, std::filesystem::path());
+  }
+  /// Throws as OutputFile().
+  OutputFile& open(const std::filesystem::path& target);
+  /// Null where the target has no name.
+  OutputFile* open_if_named(const std::filesystem::path& target) { return target.empty() ? nullptr : &open(target); }
+  /// None appears before all are finished.
+  void commit();
+
+ private:
+  std::vector<std::filesystem::path> used_;
+  std::vector<std::unique_ptr<OutputFile>> files_;
+};
+
+/// A file of that content. Throws as OutputFile().
+inline void write_file(const std::filesystem::path& target, const std::vector<std::filesystem::path>& also_used,
+                       std::string_view content) {
+  OutputFile output(target, also_used);
+  output.stream() << content;
+  output.commit();
+}
 
 /// Makes a folder for outputs, parents included, unless it is there. Throws OutputError.
 void make_output_folder(const std::filesystem::path& folder);

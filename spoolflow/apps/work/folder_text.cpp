@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "spoolflow/apps/work/harmless_text.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
@@ -85,14 +86,17 @@ std::string listed(const std::vector<calibration::NeededRecording>& all) {
   return out;
 }
 
-std::string json_of(const std::vector<calibration::NeededRecording>& all) {
-  std::string out;
+using Json = nlohmann::ordered_json;
+
+Json json_of(const std::vector<calibration::NeededRecording>& all) {
+  Json out = Json::array();
   for (const calibration::NeededRecording& each : all) {
-    out += fmt::format("{}{{\"protocol\": \"{}\", \"direction\": \"{}\", \"minutes\": {:g}, \"why\": {}}}",
-                       out.empty() ? "" : ", ", recording::name(each.protocol), each.direction, each.minutes,
-                       json_text(each.why));
+    out.push_back({{"protocol", recording::name(each.protocol)},
+                   {"direction", each.direction},
+                   {"minutes", each.minutes},
+                   {"why", each.why}});
   }
-  return "[" + out + "]";
+  return out;
 }
 
 }  // namespace
@@ -145,23 +149,25 @@ std::string folder_text(const fs::path& folder, const std::vector<FolderEntry>& 
 }
 
 std::string folder_json(const std::vector<FolderEntry>& entries) {
-  std::string out = "{\"recordings\": [";
+  Json recordings = Json::array(), models = Json::array();
   for (const FolderEntry& entry : entries) {
-    out += fmt::format("{}\n  {{\"file\": {}, ", &entry == entries.data() ? "" : ",", json_text(entry.file));
-    out += entry.why_not.empty()
-               ? fmt::format("\"protocol\": \"{}\", \"direction\": \"{}\", \"seconds\": {:.3f}, \"levels\": {}}}",
-                             recording::name(entry.recorded.protocol), entry.recorded.direction, entry.seconds,
-                             entry.recorded.levels)
-               : fmt::format("\"why_not\": {}}}", json_text(entry.why_not));
+    Json& each = recordings.emplace_back(Json{{"file", entry.file}});
+    if (entry.why_not.empty()) {
+      each.update({{"protocol", recording::name(entry.recorded.protocol)},
+                   {"direction", entry.recorded.direction},
+                   {"seconds", entry.seconds},
+                   {"levels", entry.recorded.levels}});
+    } else {
+      each["why_not"] = entry.why_not;
+    }
   }
-  out += "\n ],\n \"models\": [";
-  bool first = true;
   for (const calibration::ModelNeeds& kind : needs_of(entries)) {
-    out += fmt::format("{}\n  {{\"kind\": \"{}\", \"complete\": {},\n   \"missing\": {},\n   \"better\": {}}}",
-                       first ? "" : ",", kind.kind, kind.missing.empty(), json_of(kind.missing), json_of(kind.better));
-    first = false;
+    models.push_back({{"kind", kind.kind},
+                      {"complete", kind.missing.empty()},
+                      {"missing", json_of(kind.missing)},
+                      {"better", json_of(kind.better)}});
   }
-  return out + "\n ]}\n";
+  return json_text(Json{{"recordings", recordings}, {"models", models}});
 }
 
 }  // namespace spoolflow::apps

@@ -1,11 +1,11 @@
 #pragma once
 /// Text that cannot steer a terminal or forge a line, whatever names files and command lines hold.
-#include <cmath>
 #include <string>
 #include <string_view>
 #include <type_traits>
 
 #include <fmt/format.h>
+#include <nlohmann/json_fwd.hpp>
 
 namespace spoolflow::apps {
 
@@ -14,13 +14,8 @@ namespace spoolflow::apps {
 [[nodiscard]] std::string terminal_text(std::string_view text);
 /// The same line by line.
 [[nodiscard]] std::string terminal_lines(std::string_view text);
-/// The text as a JSON string with its quotes, as harmless.
-[[nodiscard]] std::string json_text(std::string_view text);
-/// A number of JSON, which has none for what is infinite or no number: null. As many digits as its type needs.
-template <class Number>
-[[nodiscard]] std::string json_number(Number value) {
-  return std::isfinite(value) ? fmt::format("{}", value) : "null";
-}
+/// JSON as harmless: in ASCII, with \ufffd for bytes that are no UTF-8.
+[[nodiscard]] std::string json_text(const nlohmann::ordered_json& json);
 
 namespace detail {
 

@@ -1,9 +1,9 @@
 #include "spoolflow/apps/work/inspection_text.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "spoolflow/apps/work/harmless_text.hpp"
 #include "spoolflow/apps/work/notes.hpp"
@@ -32,9 +32,9 @@ std::string joined(const std::vector<std::string>& names) {
 /// Columns that the map does not name.
 std::vector<std::string> columns_left_out(const recording::ChannelMap& map, const recording::Inspection& found) {
   std::vector<std::string> out;
-  for (const std::string& column : found.contents.columns) {
+  for (const std::string& column : found.contents.names()) {
     const auto names_it = [&](const auto& entry) { return entry.second.column == column; };
-    if (std::none_of(map.sources.begin(), map.sources.end(), names_it)) out.push_back(column);
+    if (std::ranges::none_of(map.sources, names_it)) out.push_back(column);
   }
   return out;
 }
@@ -131,7 +131,7 @@ void add_clocks(std::string& out, const recording::Inspection& found) {
 void add_text(std::string& out, const InspectedFile& inspected) {
   const recording::Inspection& found = inspected.found;
   add(out, "{}: {}, {} columns: {}\n", inspected.file, found.contents.format, found.contents.columns.size(),
-      joined(found.contents.columns));
+      joined(found.contents.names()));
   add_clocks(out, found);
   if (!found.channels.empty()) {
     add(out, "{} samples from {:.6g} to {:.6g} s ({:.6g} s), {:.6g} Hz", found.samples, found.begin_s, found.end_s,
@@ -167,101 +167,85 @@ void add_text(std::string& out, const InspectedFile& inspected) {
   }
 }
 
-void add_names_json(std::string& out, const char* key, const std::vector<recording::Channel>& channels) {
-  add(out, " \"{}\": [", key);
-  for (const recording::Channel& channel : channels)
-    add(out, "{}\"{}\"", &channel == channels.data() ? "" : ", ", recording::name(channel));
-  add(out, "],\n");
+using Json = nlohmann::ordered_json;  // writes null for what is no number
+
+Json names_json(const std::vector<recording::Channel>& channels) {
+  Json out = Json::array();
+  for (const recording::Channel channel : channels) out.push_back(recording::name(channel));
+  return out;
 }
 
-void add_column_json(std::string& out, const recording::Inspection& found) {
-  add(out, " \"raw_columns\": [");
-  for (const recording::InspectedColumn& column : found.columns) {
-    add(out,
-        "{}\n  {{\"column\": {}, \"unit\": {}, \"lowest\": {}, \"highest\": {}, \"channel\": {}, \"guessed\": {}, "
-        "\"why\": {}}}",
-        &column == found.columns.data() ? "" : ",", json_text(column.name), json_text(column.unit),
-        json_number(column.lowest), json_number(column.highest),
-        column.channel ? json_text(std::string(recording::name(*column.channel))) : "null", column.guessed,
-        json_text(column.why));
-  }
-  add(out, "\n ],\n");
-  add(out, " \"infinite\": [");
-  for (const auto& [column, infinite] : found.infinite) {
-    add(out, "{}\n  {{\"column\": {}, \"count\": {}, \"first_sample\": {}, \"negative\": {}}}",
-        column == found.infinite.begin()->first ? "" : ",", json_text(column), infinite.count, infinite.first,
-        infinite.value < 0);
-  }
-  add(out, "\n ],\n");
-  add_names_json(out, "missing", found.missing);
-  add_names_json(out, "helpful", found.helpful);
+Json gaps_json(const recording::Inspection& found) {
+  Json out = Json::array();
+  for (const recording::Gap& gap : found.gaps) out.push_back({gap.from_s, gap.to_s});
+  return out;
 }
 
-void add_clocks_json(std::string& out, const recording::Inspection& found) {
-  add(out, " \"times\": [");
+Json channels_json(const recording::Inspection& found) {
+  Json out = Json::array();
+  for (const recording::ChannelSummary& summary : found.channels) {
+    const units::Unit unit = recording::usual_unit(summary.channel);
+    out.push_back({{"channel", recording::name(summary.channel)},
+                   {"unit", unit.name},
+                   {"lowest", in_unit(unit, summary.lowest)},
+                   {"mean", in_unit(unit, summary.mean)},
+                   {"highest", in_unit(unit, summary.highest)},
+                   {"missing", summary.missing},
+                   {"clipped_share", summary.clipped}});
+  }
+  return out;
+}
+
+Json clocks_json(const recording::Inspection& found) {
+  Json out = Json::array();
   for (const recording::InspectedClock& clock : found.clocks) {
-    add(out,
-        "{}\n  {{\"column\": {}, \"samples\": {}, \"rate_Hz\": {}, \"begin_s\": {}, \"end_s\": {}, \"leads\": {}, "
-        "\"fault\": {}, \"columns\": [",
-        &clock == found.clocks.data() ? "" : ",", json_text(clock.time), clock.samples, json_number(clock.rate_Hz),
-        json_number(clock.begin_s), json_number(clock.end_s), clock.leads, json_text(clock.fault));
-    for (const std::string& column : clock.columns)
-      add(out, "{}{}", &column == clock.columns.data() ? "" : ", ", json_text(column));
-    add(out, "]}}");
+    out.push_back({{"column", clock.time},
+                   {"samples", clock.samples},
+                   {"rate_Hz", clock.rate_Hz},
+                   {"begin_s", clock.begin_s},
+                   {"end_s", clock.end_s},
+                   {"leads", clock.leads},
+                   {"fault", clock.fault},
+                   {"columns", clock.columns}});
   }
-  add(out, "\n ],\n \"resampled\": {},\n", json_text(found.resampled));
+  return out;
+}
+
+Json columns_json(const recording::Inspection& found) {
+  Json out = Json::array();
+  for (const recording::InspectedColumn& column : found.columns) {
+    out.push_back({{"column", column.name},
+                   {"unit", column.unit},
+                   {"lowest", column.lowest},
+                   {"highest", column.highest},
+                   {"channel", column.channel ? Json(recording::name(*column.channel)) : Json(nullptr)},
+                   {"guessed", column.guessed},
+                   {"why", column.why}});
+  }
+  return out;
+}
+
+Json infinite_json(const recording::Inspection& found) {
+  Json out = Json::array();
+  for (const auto& [column, infinite] : found.infinite) {
+    out.push_back({{"column", column},
+                   {"count", infinite.count},
+                   {"first_sample", infinite.first},
+                   {"negative", infinite.value < 0}});
+  }
+  return out;
 }
 
 /// The proposal as values; the same as TOML stands in proposed_channel_map.
-void add_map_json(std::string& out, const recording::ChannelMap& map) {
-  add(out, " \"proposed_map\": {{");
-  bool first = true;
+Json map_json(const recording::ChannelMap& map) {
+  Json out = Json::object();
   for (const auto& [channel, source] : map.sources) {
-    add(out, "{}\n  {}: {{\"column\": {}, \"unit\": {}", std::exchange(first, false) ? "" : ",",
-        json_text(recording::name(channel)), json_text(source.column), json_text(source.unit));
-    if (source.scale != 1.0) add(out, ", \"scale\": {}", json_number(source.scale));
-    if (source.offset != 0.0) add(out, ", \"offset\": {}", json_number(source.offset));
-    if (source.to) add(out, ", \"to\": {}", json_text(*source.to));
-    add(out, "}}");
+    Json& entry = out[std::string(recording::name(channel))] = {{"column", source.column}, {"unit", source.unit}};
+    if (source.scale != 1.0) entry["scale"] = source.scale;
+    if (source.offset != 0.0) entry["offset"] = source.offset;
+    if (source.to) entry["to"] = *source.to;
   }
-  add(out, "\n }},\n");
-}
-
-void add_json(std::string& out, const recording::Inspection& found, const std::string& more) {
-  add(out, "{{\n \"format\": {},\n \"columns\": [", json_text(found.contents.format));
-  for (const std::string& column : found.contents.columns) {
-    add(out, "{}{}", &column == found.contents.columns.data() ? "" : ", ", json_text(column));
-  }
-  add(out, "],\n \"unread\": [");
-  for (const std::string& what : found.contents.unread) {
-    add(out, "{}{}", &what == found.contents.unread.data() ? "" : ", ", json_text(what));
-  }
-  add(out, "],\n \"samples\": {},\n \"begin_s\": {},\n \"end_s\": {},\n \"rate_Hz\": {},\n \"time_step_jitter\": {},\n",
-      found.samples, json_number(found.begin_s), json_number(found.end_s), json_number(found.rate_Hz),
-      json_number(found.jitter));
-  add(out, " \"duplicate_times\": {},\n \"gap_count\": {},\n \"gaps_s\": [", found.duplicate_times, found.gap_count);
-  for (const recording::Gap& gap : found.gaps) {
-    add(out, "{}[{}, {}]", &gap == found.gaps.data() ? "" : ", ", json_number(gap.from_s), json_number(gap.to_s));
-  }
-  add(out, "],\n \"channels\": [");
-  for (const recording::ChannelSummary& summary : found.channels) {
-    const units::Unit unit = recording::usual_unit(summary.channel);
-    const auto shown = [&](double value) { return json_number(in_unit(unit, value)); };
-    add(out,
-        "{}\n  {{\"channel\": \"{}\", \"unit\": \"{}\", \"lowest\": {}, \"mean\": {}, \"highest\": {}, \"missing\": "
-        "{}, "
-        "\"clipped_share\": {}}}",
-        &summary == found.channels.data() ? "" : ",", recording::name(summary.channel), unit.name,
-        shown(summary.lowest), shown(summary.mean), shown(summary.highest), summary.missing,
-        json_number(summary.clipped));
-  }
-  add(out, "\n ],\n");
-  add_clocks_json(out, found);
-  add_column_json(out, found);
-  add_map_json(out, found.proposal);
-  out += more;
-  add(out, " \"proposed_channel_map\": {}\n}}\n",
-      json_text(recording::written(found.proposal, found.remarks, found.missing)));
+  return out;
 }
 
 }  // namespace
@@ -272,10 +256,29 @@ std::string inspection_text(const InspectedFile& inspected) {
   return out;
 }
 
-std::string inspection_json(const recording::Inspection& found, const std::string& more) {
-  std::string out;
-  add_json(out, found, more);
-  return out;
+std::string inspection_json(const recording::Inspection& found, const Json& protocol) {
+  Json out{{"format", found.contents.format},
+           {"columns", found.contents.names()},
+           {"unread", found.contents.unread},
+           {"samples", found.samples},
+           {"begin_s", found.begin_s},
+           {"end_s", found.end_s},
+           {"rate_Hz", found.rate_Hz},
+           {"time_step_jitter", found.jitter},
+           {"duplicate_times", found.duplicate_times},
+           {"gap_count", found.gap_count},
+           {"gaps_s", gaps_json(found)},
+           {"channels", channels_json(found)},
+           {"times", clocks_json(found)},
+           {"resampled", found.resampled},
+           {"raw_columns", columns_json(found)},
+           {"infinite", infinite_json(found)},
+           {"missing", names_json(found.missing)},
+           {"helpful", names_json(found.helpful)},
+           {"proposed_map", map_json(found.proposal)}};
+  if (!protocol.is_null()) out["protocol"] = protocol;
+  out["proposed_channel_map"] = recording::written(found.proposal, found.remarks, found.missing);
+  return json_text(out);
 }
 
 }  // namespace spoolflow::apps

@@ -2,6 +2,8 @@
 /// What `inspect` says of a recording.
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "spoolflow/recording/inspection.hpp"
 
 namespace spoolflow::apps {
@@ -15,7 +17,8 @@ struct InspectedFile {
 
 /// For people.
 [[nodiscard]] std::string inspection_text(const InspectedFile& inspected);
-/// For programs, `inspect --json`. `more`: further members of the object, each with a comma behind it.
-[[nodiscard]] std::string inspection_json(const recording::Inspection& found, const std::string& more = "");
+/// For programs, `inspect --json`. `protocol`: protocol_json() where it was asked for, else null.
+[[nodiscard]] std::string inspection_json(const recording::Inspection& found,
+                                          const nlohmann::ordered_json& protocol = {});
 
 }  // namespace spoolflow::apps

@@ -54,9 +54,13 @@ void BandWatch::take(const model::Model& model, const monitor::Monitor& watch, c
 }
 
 void refuse_given_twice(const std::vector<std::string>& recordings) {
+  std::map<std::uintmax_t, std::size_t> of_size;  // how many files
+  for (const std::string& file : recordings) {
+    if (std::filesystem::is_regular_file(file)) ++of_size[std::filesystem::file_size(file)];
+  }
   std::map<std::string, std::string> given;  // sha256 to file
   for (const std::string& file : recordings) {
-    if (!std::filesystem::is_regular_file(file)) continue;
+    if (!std::filesystem::is_regular_file(file) || of_size[std::filesystem::file_size(file)] == 1) continue;
     const auto [first, is_new] = given.emplace(model::sha256_of_file(file), file);
     if (is_new) continue;
     throw model::ModelError(

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "spoolflow/apps/work/harmless_text.hpp"
 #include "spoolflow/recording/open_table.hpp"
@@ -87,19 +88,18 @@ std::string protocol_text(const calibration::ProtocolFit& fit) {
   return out;
 }
 
-std::string protocol_json(const calibration::ProtocolFit& fit) {
-  std::string out = fmt::format(" \"protocol\": {{\"name\": \"{}\", \"serves\": {},\n  \"channels\": [",
-                                recording::name(fit.protocol), fit.missing.empty());
+nlohmann::ordered_json protocol_json(const calibration::ProtocolFit& fit) {
+  using Json = nlohmann::ordered_json;
+  Json channels = Json::array();
   for (const calibration::ProtocolChannel& channel : fit.channels) {
-    out += fmt::format("{}\n   {{\"channel\": \"{}\", \"need\": \"{}\", \"column\": {}}}",
-                       &channel == fit.channels.data() ? "" : ",", recording::name(channel.channel),
-                       words(channel.need), channel.column.empty() ? "null" : json_text(channel.column));
+    channels.push_back({{"channel", recording::name(channel.channel)},
+                        {"need", words(channel.need)},
+                        {"column", channel.column.empty() ? Json(nullptr) : Json(channel.column)}});
   }
-  out += "\n  ],\n  \"missing\": [";
-  for (const std::string& missing : fit.missing) {
-    out += fmt::format("{}{}", &missing == fit.missing.data() ? "" : ", ", json_text(missing));
-  }
-  return out + "]},\n";
+  return {{"name", recording::name(fit.protocol)},
+          {"serves", fit.missing.empty()},
+          {"channels", channels},
+          {"missing", fit.missing}};
 }
 
 }  // namespace spoolflow::apps

@@ -3,6 +3,8 @@
 #include <optional>
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "spoolflow/calibration/protocol_channels.hpp"
 #include "spoolflow/recording/inspection.hpp"
 
@@ -16,7 +18,7 @@ namespace spoolflow::apps {
 
 /// For people.
 [[nodiscard]] std::string protocol_text(const calibration::ProtocolFit& fit);
-/// For programs: the member "protocol" of an object, with a comma behind it.
-[[nodiscard]] std::string protocol_json(const calibration::ProtocolFit& fit);
+/// For programs.
+[[nodiscard]] nlohmann::ordered_json protocol_json(const calibration::ProtocolFit& fit);
 
 }  // namespace spoolflow::apps

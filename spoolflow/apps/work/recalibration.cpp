@@ -21,7 +21,7 @@ namespace {
 
 using recording::Channel;
 
-std::vector<recording::Recording> recordings_of(const MachineFiles& from, const model::Model& model) {
+std::vector<recording::Recording> recordings_of(const MachineOil& from, const model::Model& model) {
   recording::ReadOptions options;
   options.required = {Channel::time, Channel::position};
   options.optional = {Channel::oil_temperature, Channel::pressure_difference, Channel::flow_reference, Channel::test};
@@ -122,15 +122,13 @@ calibration::RecalibratedValve recalibrated_despite(const std::vector<std::strin
 
 }  // namespace
 
-calibration::RecalibratedValve recalibrated(const model::Model& model, const MachineFiles& from,
-                                            model::Adaptation how) {
+calibration::RecalibratedValve recalibrated(const model::Model& model, const MachineOil& from, model::Adaptation how) {
   calibration::require_movable(model);  // before files are read that only another model needs
-  const std::vector<recording::Reference> references = recording::read_references(from.references);
-  refuse_ambiguous(references, from.recordings);
+  refuse_ambiguous(from.references, from.recordings);
   const std::vector<recording::Recording> recordings = recordings_of(from, model);
   refuse_used_again(model, from.recordings);
   const std::vector<std::string> doubts = doubts_about(recordings, model);
-  calibration::RecalibratedValve out = recalibrated_despite(doubts, model, recordings, references, std::move(how));
+  calibration::RecalibratedValve out = recalibrated_despite(doubts, model, recordings, from.references, std::move(how));
   out.doubts.insert(out.doubts.begin(), doubts.begin(), doubts.end());
   std::vector<std::string>& reasons = out.model.provenance.adaptations.back().reasons;
   reasons.insert(reasons.end(), doubts.begin(), doubts.end());

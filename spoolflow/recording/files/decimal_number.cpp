@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <fast_float/fast_float.h>
 #include <system_error>
@@ -73,55 +72,11 @@ Digits read_number(std::string_view text, char point, double& value) {
 
 bool read_long_decimal(const char* text, const char* end, char point, bool negative, double& value) {
   double magnitude = 0;
-  if (read_sixteen(text, end, point, magnitude)) {
-    value = signed_number(magnitude, negative);
-    return true;
-  }
-  std::uint64_t mantissa = 0;
-  std::ptrdiff_t digits = 0;
-  const char* at = text;
-  const auto take_digits = [&] {
-    for (unsigned count = 8; count == 8;) {
-      const std::uint64_t word = eight_bytes(at);
-      const std::uint64_t others = bytes_no_digits(word);
-      if (others != 0) count = static_cast<unsigned>(std::countr_zero(others)) / 8;
-      if (count == 0) return;
-      mantissa =
-          mantissa * static_cast<std::uint64_t>(exact_powers_of_ten[count]) + number_of_digits(word << 8 * (8 - count));
-      digits += count;
-      at += count;
-    }
-  };
-  take_digits();
-  std::ptrdiff_t exponent = 0;
-  if (*at == point) {
-    const char* const fraction = ++at;
-    take_digits();
-    exponent = fraction - at;
-  }
-  if (digits == 0 || end - text >= static_cast<std::ptrdiff_t>(longest)) return false;
-  if (*at == 'e' || *at == 'E') {
-    ++at;
-    const bool small = *at == '-';
-    if (*at == '-' || *at == '+') ++at;
-    int written = 0;
-    std::ptrdiff_t power = 0;
-    for (; *at >= '0' && *at <= '9' && written < 4; ++written) power = 10 * power + (*at++ - '0');
-    if (written == 0 || written == 4) return false;
-    exponent += small ? -power : power;
-  }
-  if (at != end) return false;
-  constexpr std::uint64_t exact_integers = std::uint64_t{1} << 53;
-  constexpr auto largest = static_cast<std::ptrdiff_t>(exact_powers_of_ten.size()) - 1;
-  // 19 digits cannot overflow 64 bits, so the mantissa is right where it is compared.
-  if (digits <= 19 && mantissa <= exact_integers && exponent >= -largest && exponent <= largest) {
-    const auto integer = static_cast<double>(static_cast<std::int64_t>(mantissa));
-    magnitude = exponent < 0 ? integer / exact_powers_of_ten[static_cast<std::size_t>(-exponent)]
-                             : integer * exact_powers_of_ten[static_cast<std::size_t>(exponent)];
-  } else {
+  if (!read_sixteen(text, end, point, magnitude)) {
+    if (*text == '-' || end - text >= static_cast<std::ptrdiff_t>(longest)) return false;
     const auto read = fast_float::from_chars_advanced(
         text, end, magnitude, fast_float::parse_options{fast_float::chars_format::general, point});
-    if (read.ptr != end || !std::isfinite(magnitude)) return false;
+    if (read.ptr != end || read.ec == std::errc::invalid_argument || !std::isfinite(magnitude)) return false;
   }
   value = signed_number(magnitude, negative);
   return true;

@@ -6,13 +6,16 @@
 
 namespace spoolflow::recording {
 
+std::vector<std::string> FileContents::names() const {
+  std::vector<std::string> out;
+  for (const FileColumn& column : columns) out.push_back(column.name);
+  return out;
+}
+
 FileContents contents_of(std::string format, const SampleTable& table) {
-  FileContents out{std::move(format), {}, {}, {}, {}};
-  for (const FileColumn& column : table.columns()) {
-    out.columns.push_back(column.name);
-    out.leaves.push_back(column.leaf);
-    out.units.push_back(stated_unit(column));
-  }
+  FileContents out{std::move(format), {}, {}};
+  for (const FileColumn& column : table.columns())
+    out.columns.push_back({column.name, column.leaf, stated_unit(column)});
   if (const std::string lost = table.lost(); !lost.empty()) out.unread.push_back(lost);
   for (const UnreadPart& part : table.unread()) out.unread.push_back(part.what);
   return out;

@@ -1,6 +1,4 @@
 #pragma once
-/// What a file is and what its columns are called.
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -10,15 +8,11 @@ namespace spoolflow::recording {
 
 /// What a file is and what its columns are called, whether they are channels or not.
 struct FileContents {
-  std::string format;  ///< "CSV", "MATLAB", "HDF5", "TDMS"
-  std::vector<std::string> columns;
-  /// What each column's name is looked for in: the last part of its name, or what the file labels it with.
-  std::vector<std::string> leaves;
-  std::vector<std::string> units;   ///< as a units row or an attribute says; empty where nothing does
+  std::string format;               ///< "CSV", "MATLAB", "HDF5", "TDMS"
+  std::vector<FileColumn> columns;  ///< names, leaves, and the units as a units row or an attribute says
   std::vector<std::string> unread;  ///< what of its end is missing, what else it holds, and why that is not read
 
-  /// As a reader finds it.
-  [[nodiscard]] FileColumn column(std::size_t index) const { return {columns[index], leaves[index], units[index], {}}; }
+  [[nodiscard]] std::vector<std::string> names() const;
 };
 /// Of an open table. `format` as FileContents has it.
 [[nodiscard]] FileContents contents_of(std::string format, const SampleTable& table);

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <initializer_list>
 
+#include "spoolflow/recording/channels/utf8.hpp"
+
 namespace spoolflow::recording {
 namespace {
 
@@ -28,14 +30,6 @@ std::string trimmed(std::string text) {
   text.erase(0, std::min(text.find_first_not_of(' '), text.size()));
   text.resize(text.find_last_not_of(' ') + 1);
   return text;
-}
-
-void append_utf8(std::string& out, std::uint32_t code) {
-  constexpr std::uint32_t one = 0x80, two = 0x800, tail = 0x3F;
-  const auto byte = [&out](std::uint32_t value) { out += static_cast<char>(value); };
-  if (code < one) return byte(code);
-  if (code < two) return byte(0xC0 | code >> 6U), byte(one | (code & tail));
-  byte(0xE0 | code >> 12U), byte(one | (code >> 6U & tail)), byte(one | (code & tail));
 }
 
 /// The rows of a char matrix; of one row all of its bytes, as UTF-8 may have more of them than characters.

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/recording/channels/byte_order_mark.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/files/clock_time.hpp"
 #include "spoolflow/recording/files/decimal_number.hpp"
@@ -144,8 +145,7 @@ bool header_is_whole(std::string_view beginning) {
 CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file, bool runs_on) {
   if (beginning.empty()) throw RecordingError(fmt::format("{}: is empty; record it again or name another file", file));
   CsvDialect dialect;
-  std::string_view rest = beginning;
-  if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);
+  std::string_view rest = without_byte_order_mark(beginning);
   refuse_other_kinds_of_text(rest, file);
   if (TwincatSettings twincat = take_twincat_settings(rest, file); twincat.lines > 0) {
     constexpr std::size_t least_cells = 2;  // a time and its number

@@ -1,46 +1,17 @@
 #include "spoolflow/recording/text/utf16.hpp"
 
+#include "spoolflow/recording/channels/utf8.hpp"
+
 namespace spoolflow::recording {
 namespace {
 
 constexpr std::uint32_t byte_order_mark = 0xFEFF, replacement = 0xFFFD;
 
-void append(std::string& out, std::uint32_t point) {
-  const auto byte = [&](std::uint32_t value) { out += static_cast<char>(value); };
-  const auto following = [&](int shift) { byte(0x80U | ((point >> shift) & 0x3FU)); };
-  if (point < 0x80) {
-    byte(point);
-  } else if (point < 0x800) {
-    byte(0xC0U | (point >> 6));
-    following(0);
-  } else if (point < 0x10000) {
-    byte(0xE0U | (point >> 12));
-    following(6);
-    following(0);
-  } else {
-    byte(0xF0U | (point >> 18));
-    following(12);
-    following(6);
-    following(0);
-  }
-}
-
-/// How many bytes follow the first of a character; nothing where it begins none.
-std::optional<std::size_t> following(unsigned char first) {
-  if (first < 0x80) return 0;
-  if (first >= 0xC2 && first < 0xE0) return 1;
-  if (first >= 0xE0 && first < 0xF0) return 2;
-  if (first >= 0xF0 && first < 0xF5) return 3;
-  return std::nullopt;
-}
-
 bool is_utf8(std::string_view text) {
-  for (std::size_t at = 0; at < text.size(); ++at) {
-    const auto count = following(static_cast<unsigned char>(text[at]));
-    if (!count) return false;
-    for (std::size_t k = 0; k < *count; ++k) {
-      if (++at >= text.size() || (static_cast<unsigned char>(text[at]) & 0xC0U) != 0x80U) return false;
-    }
+  while (!text.empty()) {
+    const std::size_t bytes = first_character(text).bytes;
+    if (bytes == 0) return false;
+    text.remove_prefix(bytes);
   }
   return true;
 }
@@ -67,16 +38,16 @@ std::string Utf16::decoded(std::string_view bytes) {
     const auto unit = static_cast<std::uint16_t>(high_first_ ? (first << 8) | now : (unsigned{now} << 8) | first);
     const bool leads = unit >= 0xD800 && unit < 0xDC00, follows = unit >= 0xDC00 && unit < 0xE000;
     if (leading_ && follows) {
-      append(out, 0x10000U + ((*leading_ - 0xD800U) << 10) + (unit - 0xDC00U));
+      append_utf8(out, 0x10000U + ((*leading_ - 0xD800U) << 10) + (unit - 0xDC00U));
       leading_.reset();
       continue;
     }
-    if (leading_) append(out, replacement);
+    if (leading_) append_utf8(out, replacement);
     leading_.reset();
     if (leads) {
       leading_ = unit;
     } else if (unit != byte_order_mark) {
-      append(out, follows ? replacement : unit);
+      append_utf8(out, follows ? replacement : unit);
     }
   }
   return out;
@@ -92,7 +63,7 @@ std::string utf8_of(std::string_view text) {
   std::string out;
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    append(out, byte >= 0x80 && byte < 0xA0 ? windows_1252[byte - 0x80U] : byte);
+    append_utf8(out, byte >= 0x80 && byte < 0xA0 ? windows_1252[byte - 0x80U] : byte);
   }
   return out;
 }

@@ -20,6 +20,7 @@ namespace {
 
 using ::testing::Each;
 using ::testing::ElementsAre;
+using ::testing::Field;
 using ::testing::HasSubstr;
 using ::testing::IsNan;
 
@@ -199,7 +200,7 @@ TEST(Mdf4Table, TextsAmongNumbersAreMissingSamples) {
   for (const char* name : {"by_value", "by_range", "turned"})
     EXPECT_THAT(values_of(bytes, name), ElementsAre(1000, IsNan(), 32500)) << name;
   const TemporaryFile written("run.mf4", bytes);
-  EXPECT_THAT(contents_of(written.path()).units, Each("mA"));
+  EXPECT_THAT(contents_of(written.path()).columns, Each(Field(&FileColumn::unit, "mA")));
 }
 
 TEST(Mdf4Table, AConversionThatLeadsToItselfEnds) {

@@ -204,7 +204,7 @@ TEST(XlsxTable, ATableOfResultsBeforeTheRecordingIsNotTakenForIt) {
   file.sheet("Results", xlsx_row({"'Run", "'Flow", "'Pressure"}) + xlsx_row({"1", "20", "50"}));
   file.sheet("Monday", recording).sheet("Tuesday", recording);
   const TemporaryFile written("run.xlsx", file.content());
-  EXPECT_THAT(contents_of(written.path()).columns, ElementsAre("time_s", "current_A", "position_mm"));
+  EXPECT_THAT(contents_of(written.path()).names(), ElementsAre("time_s", "current_A", "position_mm"));
 }
 
 TEST(XlsxTable, NumbersAsTextMayHaveADecimalComma) {

@@ -1,4 +1,4 @@
-#include "spoolflow/apps/terminal/suggestion.hpp"
+#include "spoolflow/apps/terminal/input_kind.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/channels/nearest_name.hpp"
+#include "spoolflow/recording/channels/byte_order_mark.hpp"
 
 namespace spoolflow::apps {
 namespace {
@@ -21,9 +21,8 @@ std::optional<FileKind> kind_of(const std::string& file) {
   std::array<char, 512> beginning{};
   std::ifstream in(file, std::ios::binary);
   in.read(beginning.data(), beginning.size());
-  std::string_view text(beginning.data(), static_cast<std::size_t>(in.gcount()));
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  const std::string_view text =
+      recording::without_byte_order_mark({beginning.data(), static_cast<std::size_t>(in.gcount())});
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return std::nullopt;
   if (text[first] == '{' && !text.substr(first).starts_with("{\\rtf")) return FileKind::model;
@@ -69,11 +68,12 @@ void refuse_other_kinds(std::string_view command, const std::vector<Input>& inpu
       command));
 }
 
-std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
-  if (candidates.empty()) return {};
-  const std::string_view nearest = recording::nearest_name(word, candidates);
-  if (3 * recording::edit_distance(word, nearest) > std::max(word.size(), nearest.size())) return {};
-  return fmt::format("; did you mean '{}'?", nearest);
+void refuse_other_kinds(std::string_view command, const std::string& model, const std::vector<std::string>& recordings,
+                        const std::vector<Input>& behind) {
+  std::vector<Input> inputs{{model, FileKind::model}};
+  for (const std::string& recording : recordings) inputs.push_back({recording, FileKind::recording});
+  inputs.insert(inputs.end(), behind.begin(), behind.end());
+  refuse_other_kinds(command, inputs);
 }
 
 }  // namespace spoolflow::apps

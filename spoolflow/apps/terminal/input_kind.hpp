@@ -1,13 +1,10 @@
 #pragma once
-/// What a user may have meant who typed something else.
+/// Files on the command line that are of another kind than the command takes there.
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace spoolflow::apps {
-
-/// "; did you mean 'calibrate'?" for a misspelt word, or nothing where no candidate is near (a third of its letters).
-[[nodiscard]] std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
 
 /// What a file on the command line is, recognised by its first bytes and, of settings, by its ending.
 enum class FileKind { model, settings, recording };
@@ -24,5 +21,8 @@ struct Input {
 /// ("estimate takes the model first: …"), or one of them is plainly of another kind. What is missing, a pipe or of no
 /// known kind is left to whoever reads it.
 void refuse_other_kinds(std::string_view command, const std::vector<Input>& inputs);
+/// The same of a command that takes a model and then recordings.
+void refuse_other_kinds(std::string_view command, const std::string& model, const std::vector<std::string>& recordings,
+                        const std::vector<Input>& behind = {});
 
 }  // namespace spoolflow::apps

@@ -1,4 +1,4 @@
-#include "spoolflow/apps/terminal/suggestion.hpp"
+#include "spoolflow/apps/terminal/input_kind.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,19 +7,6 @@
 
 namespace spoolflow::apps {
 namespace {
-
-const std::vector<std::string> known{"calibrate", "estimate", "inspect", "validate"};
-
-TEST(Suggestion, NamesTheNearestCommand) {
-  EXPECT_EQ(suggestion("calibrat", known), "; did you mean 'calibrate'?");
-  EXPECT_EQ(suggestion("esitmate", known), "; did you mean 'estimate'?");
-}
-
-TEST(Suggestion, StaysSilentWhereNoWordIsNear) {
-  EXPECT_EQ(suggestion("frobnicate", known), "");
-  EXPECT_EQ(suggestion("x", known), "");
-  EXPECT_EQ(suggestion("calibrate", {}), "");
-}
 
 class SwappedInputs : public CommandLine {
  protected:
