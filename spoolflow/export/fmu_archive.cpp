@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/export/checksum.hpp"
 #include "spoolflow/export/embedded_files.hpp"
 #include "spoolflow/export/zip_archive.hpp"
 #include "spoolflow/model/provenance.hpp"
+#include "spoolflow/numerics/checksum.hpp"
 
 namespace spoolflow::exports {
 namespace {
@@ -23,7 +23,7 @@ std::string asset(std::string_view name) {
 }  // namespace
 
 std::string instantiation_token(const FmuContent& content, FmiVersion version) {
-  Checksum first, second;
+  numerics::Checksum first, second;
   const auto add = [&](const std::string& text) {
     first.add(text.data(), text.size() + 1);
     second.add(text.data(), text.size() + 1);

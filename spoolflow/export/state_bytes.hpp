@@ -6,7 +6,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "spoolflow/export/checksum.hpp"
+#include "spoolflow/numerics/checksum.hpp"
 
 namespace spoolflow::exports {
 
@@ -44,7 +44,7 @@ inline void pack_state(const StateOwner& owner, const void* state, std::size_t s
   header.kind = owner.kind;
   header.model = owner.model;
   std::memcpy(out + sizeof header, state, state_size);
-  header.checksum = checksum(out + sizeof header, state_size);
+  header.checksum = numerics::checksum(out + sizeof header, state_size);
   std::memcpy(out, &header, sizeof header);
 }
 
@@ -61,7 +61,7 @@ inline void unpack_state(const StateOwner& owner, const char* bytes, std::size_t
   if (size != packed_size(state_size)) throw StateError("the state's bytes are not all there");
   if (header.kind != owner.kind) throw StateError("the state belongs to another estimator");
   if (header.model != owner.model) throw StateError("the state belongs to another model");
-  if (header.checksum != checksum(bytes + sizeof header, state_size)) {
+  if (header.checksum != numerics::checksum(bytes + sizeof header, state_size)) {
     throw StateError("the state's bytes are damaged: their checksum does not hold");
   }
   std::memcpy(state, bytes + sizeof header, state_size);

@@ -15,6 +15,7 @@ constexpr const char* remedy = "repair the valve, or calibrate it again";
 
 struct Corrected {
   Magnitude magnitude;
+  double Difference::*corrects;
   Fault fault;
   const char* of;
   const char* unit;
@@ -23,11 +24,14 @@ struct Corrected {
   double most;     ///< of the magnitude itself, in SI
 };
 constexpr std::array<Corrected, 5> corrected{{
-    {Magnitude::friction, Fault::friction, "friction ratio", "1", 1, 1, most_friction_ratio - 1},
-    {Magnitude::preload_loss, Fault::spring, "spring preload ratio", "1", -1, 1, most_preload_loss},
-    {Magnitude::rate_loss, Fault::spring, "spring rate ratio", "1", -1, 1, most_rate_loss},
-    {Magnitude::shorted_turns, Fault::coil, "shorted turns", "1", 1, 0, most_shorted_turns},
-    {Magnitude::position_zero, Fault::position_sensor, "position zero", "m", 1, 0, most_position_zero_m},
+    {Magnitude::friction, &Difference::friction_ratio, Fault::friction, "friction ratio", "1", 1, 1,
+     most_friction_ratio - 1},
+    {Magnitude::preload_loss, &Difference::preload_loss, Fault::spring, "spring preload ratio", "1", -1, 1,
+     most_preload_loss},
+    {Magnitude::rate_loss, &Difference::rate_loss, Fault::spring, "spring rate ratio", "1", -1, 1, most_rate_loss},
+    {Magnitude::shorted_turns, &Difference::shorted_turns, Fault::coil, "shorted turns", "1", 1, 0, most_shorted_turns},
+    {Magnitude::position_zero, &Difference::position_zero_m, Fault::position_sensor, "position zero", "m", 1, 0,
+     most_position_zero_m},
 }};
 
 bool explains(const DirectionFindings& side, Fault fault) {
@@ -50,28 +54,6 @@ std::vector<Corrected> wanted(const model::Model& model, const DirectionFindings
     out.push_back(each);
   }
   return out;
-}
-
-void put(Difference& difference, Magnitude magnitude, double value) {
-  switch (magnitude) {
-    case Magnitude::friction:
-      difference.friction_ratio = 1 + value;
-      break;
-    case Magnitude::preload_loss:
-      difference.preload_loss = value;
-      break;
-    case Magnitude::rate_loss:
-      difference.rate_loss = value;
-      break;
-    case Magnitude::shorted_turns:
-      difference.shorted_turns = value;
-      break;
-    case Magnitude::position_zero:
-      difference.position_zero_m = value;
-      break;
-    case Magnitude::edge_rounding:
-      break;
-  }
 }
 
 /// What was raised, and cannot be corrected.
@@ -136,7 +118,7 @@ model::Model adapted(const model::Model& model, const Findings& findings, model:
     for (const Corrected& each : wanted(model, side)) {
       const std::size_t k = index(each.magnitude);
       const double value = usual_fault[k] * side.value[k];
-      put(difference, each.magnitude, value);
+      difference.*each.corrects += value;
       how.corrections.push_back(
           {direction, each.of, each.unit, each.at_zero + each.factor * value, 2 * usual_fault[k] * side.deviation[k]});
     }

@@ -1,6 +1,5 @@
 #include "spoolflow/monitor/baseline.hpp"
 
-#include <bit>
 #include <charconv>
 #include <cmath>
 #include <span>
@@ -9,49 +8,25 @@
 
 #include "spoolflow/model/json_text.hpp"
 #include "spoolflow/model/model_error.hpp"
+#include "spoolflow/numerics/checksum.hpp"
 
 namespace spoolflow::monitor {
 namespace {
 
-/// FNV-1a over the numbers' bytes.
-struct Hash {
-  std::uint64_t value = 14695981039346656037ULL;
-  void add(double number) {
-    const auto bits = std::bit_cast<std::uint64_t>(number);
-    for (unsigned shift = 0; shift < 64; shift += 8) {
-      value ^= bits >> shift & 0xFFU;
-      value *= 1099511628211ULL;
-    }
-  }
-  void add(std::span<const double> numbers) {
-    for (const double number : numbers) add(number);
-  }
-};
-
-void add(Hash& hash, const sensor::ObserverParameters<double>& valve) {
-  hash.add(valve.actuator.magnetic_force.map.values);
-  hash.add(valve.actuator.coil.flux_linkage.map.values);
-  hash.add(valve.actuator.coil_resistance.resistance_Ohm);
-  hash.add(valve.actuator.friction_N.values);
-  hash.add(valve.spring.curve.values);
-  hash.add(valve.edge.flow_force_N.values);
-  hash.add(valve.edge.friction_N.values);
-  hash.add(valve.edge.conductance.values);
-  hash.add(valve.position_sensor.drift_m_per_K);
-  hash.add(valve.friction.operation_ratio);
-  hash.add(valve.closed_below_m);
+void add(numerics::Checksum& sum, const sensor::ObserverParameters<double>& valve) {
+  const auto add_all = [&](std::span<const double> numbers) { sum.add(numbers.data(), numbers.size_bytes()); };
+  add_all(valve.actuator.magnetic_force.map.values);
+  add_all(valve.actuator.coil.flux_linkage.map.values);
+  sum.add(&valve.actuator.coil_resistance.resistance_Ohm, sizeof(double));
+  add_all(valve.actuator.friction_N.values);
+  add_all(valve.spring.curve.values);
+  add_all(valve.edge.flow_force_N.values);
+  add_all(valve.edge.friction_N.values);
+  add_all(valve.edge.conductance.values);
+  for (const double* each :
+       {&valve.position_sensor.drift_m_per_K, &valve.friction.operation_ratio, &valve.closed_below_m})
+    sum.add(each, sizeof *each);
 }
-
-}  // namespace
-
-std::uint64_t fingerprint(const model::Model& model) {
-  Hash hash;
-  if (model.observer) add(hash, model.observer->parameters);
-  if (model.p_to_a && model.p_to_a->observer) add(hash, model.p_to_a->observer->parameters);
-  return hash.value;
-}
-
-namespace {
 
 using Json = nlohmann::ordered_json;
 
@@ -94,6 +69,13 @@ Magnitudes numbers(const Json& of, const std::string& file, const std::string& p
 }
 
 }  // namespace
+
+std::uint64_t fingerprint(const model::Model& model) {
+  numerics::Checksum sum;
+  if (model.observer) add(sum, model.observer->parameters);
+  if (model.p_to_a && model.p_to_a->observer) add(sum, model.p_to_a->observer->parameters);
+  return sum.value();
+}
 
 std::string baseline_text(const Baseline& baseline) {
   std::array<char, 17> digits{};

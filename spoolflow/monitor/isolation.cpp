@@ -13,6 +13,10 @@ namespace {
 constexpr unsigned sets = 1U << isolated_faults;
 constexpr int largest_set = 3;
 
+constexpr bool has(unsigned set, Fault fault) {
+  return (set >> static_cast<unsigned>(fault) & 1U) != 0;
+}
+
 /// The magnitudes of each fault.
 constexpr bool belongs(std::size_t fault, std::size_t magnitude) {
   constexpr std::array<std::size_t, magnitudes> fault_of{0, 1, 2, 2, 3, 4};
@@ -94,17 +98,15 @@ Explanation explain_by(const Evidence& evidence, const Magnitudes& pull, const P
 /// Lost spring force and shorted turns pull opposite ways with much the same shape over the position: together they
 /// imitate small errors of the maps. A set with both explains nothing.
 bool cancels(unsigned set) {
-  const auto has = [&](Fault fault) { return (set >> static_cast<unsigned>(fault) & 1U) != 0; };
-  return has(Fault::spring) && has(Fault::coil);
+  return has(set, Fault::spring) && has(set, Fault::coil);
 }
 
 /// What wears the lands wears the edges, too: given one of the two, the other is as likely as this.
 constexpr double edges_beside_friction = 1;
 
 double log_prior(unsigned set) {
-  const auto has = [&](Fault fault) { return (set >> static_cast<unsigned>(fault) & 1U) != 0; };
   double out = std::popcount(set) * std::log(prior_odds);
-  if (has(Fault::friction) && has(Fault::edge_wear)) out += std::log(edges_beside_friction / prior_odds);
+  if (has(set, Fault::friction) && has(set, Fault::edge_wear)) out += std::log(edges_beside_friction / prior_odds);
   return out;
 }
 
@@ -114,13 +116,12 @@ bool left_out(unsigned set) {
 
 /// Whether wear can go that way.
 bool possible(unsigned set, const Magnitudes& value) {
-  const auto has = [&](Fault fault) { return (set >> static_cast<unsigned>(fault) & 1U) != 0; };
   const auto of = [&](Magnitude magnitude) { return value[index(magnitude)]; };
-  if (has(Fault::friction) && of(Magnitude::friction) < 0) return false;
-  if (has(Fault::edge_wear) && of(Magnitude::edge_rounding) < 0) return false;
-  if (has(Fault::spring) && of(Magnitude::preload_loss) + rate_beside_preload * of(Magnitude::rate_loss) < 0)
+  if (has(set, Fault::friction) && of(Magnitude::friction) < 0) return false;
+  if (has(set, Fault::edge_wear) && of(Magnitude::edge_rounding) < 0) return false;
+  if (has(set, Fault::spring) && of(Magnitude::preload_loss) + rate_beside_preload * of(Magnitude::rate_loss) < 0)
     return false;
-  return !(has(Fault::coil) && of(Magnitude::shorted_turns) < 0);
+  return !(has(set, Fault::coil) && of(Magnitude::shorted_turns) < 0);
 }
 
 }  // namespace

@@ -252,7 +252,7 @@ TEST(CInterface, RefusesAStateWhoseHeldAnswerLiesOutsideOfItsBand) {
     ++found;
   }
   ASSERT_GT(found, 0);
-  const std::uint64_t sum = exports::checksum(state.data() + header, state.size() - header);
+  const std::uint64_t sum = spoolflow::numerics::checksum(state.data() + header, state.size() - header);
   std::memcpy(state.data() + offsetof(exports::StateHeader, checksum), &sum, sizeof sum);
   EXPECT_EQ(spoolflow_set_state(sensor.get(), state.data(), state.size(), nullptr, 0), SPOOLFLOW_BAD_STATE);
 }
@@ -261,7 +261,7 @@ TEST(CInterface, RefusesAStateWhoseHeldAnswerLiesOutsideOfItsBand) {
 std::vector<char> forged_state(std::vector<char> state, std::size_t at, double number) {
   constexpr std::size_t header = sizeof(exports::StateHeader);
   std::memcpy(state.data() + at, &number, sizeof number);
-  const std::uint64_t sum = exports::checksum(state.data() + header, state.size() - header);
+  const std::uint64_t sum = spoolflow::numerics::checksum(state.data() + header, state.size() - header);
   std::memcpy(state.data() + offsetof(exports::StateHeader, checksum), &sum, sizeof sum);
   return state;
 }

@@ -66,7 +66,7 @@ TEST_P(StateFmu, StatesThatAreEqualHaveEqualBytesAndForgedOnesAreRefused) {
   for (std::size_t k = header; k < state.size(); k += 7) {
     std::vector<char> forged = state;
     forged[k] = static_cast<char>(0xEE);
-    const std::uint64_t sum = checksum(forged.data() + header, forged.size() - header);
+    const std::uint64_t sum = numerics::checksum(forged.data() + header, forged.size() - header);
     std::memcpy(forged.data() + offsetof(StateHeader, checksum), &sum, sizeof sum);
     if (other->set_state(forged) != FmuStatus::ok) {
       ++refused;
@@ -88,7 +88,7 @@ TEST_P(StateFmu, AStateOfWhichOneNumberCannotBeLeavesTheInstanceAsItWas) {
     std::vector<char> forged = state;
     const double extreme = -1e300;
     std::memcpy(forged.data() + k, &extreme, sizeof extreme);
-    const std::uint64_t sum = checksum(forged.data() + header, forged.size() - header);
+    const std::uint64_t sum = numerics::checksum(forged.data() + header, forged.size() - header);
     std::memcpy(forged.data() + offsetof(StateHeader, checksum), &sum, sizeof sum);
     if (instance->set_state(forged) == FmuStatus::ok) {
       EXPECT_EQ(instance->set_state(state), FmuStatus::ok);

@@ -27,7 +27,7 @@ inline bool forge_state(Input& in, std::vector<char>& state) {
         std::memcpy(number, &extreme, sizeof extreme);
       }
     }
-    const std::uint64_t sum = exports::checksum(state.data() + header, state.size() - header);
+    const std::uint64_t sum = spoolflow::numerics::checksum(state.data() + header, state.size() - header);
     std::memcpy(state.data() + offsetof(exports::StateHeader, checksum), &sum, sizeof sum);
   }
   if (in.byte() % 8 == 0) state.resize(in.below(state.size() + 2));

@@ -129,7 +129,7 @@ namespace {
 std::unique_ptr<spoolflow_sensor> made(const std::string& text, const std::string& name,
                                        spoolflow_estimator estimator) {
   auto shared = std::make_shared<const SharedModel>(
-      SharedModel{spoolflow::model::parse_model(text, name), exports::checksum(text.data(), text.size())});
+      SharedModel{spoolflow::model::parse_model(text, name), spoolflow::numerics::checksum(text.data(), text.size())});
   return std::make_unique<spoolflow_sensor>(std::move(shared), estimator);
 }
 

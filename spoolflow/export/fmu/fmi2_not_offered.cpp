@@ -1,15 +1,16 @@
 /// FMI 2.0: functions that every FMU must have and this one does not offer, because modelDescription.xml says so.
 #include "spoolflow/export/fmu/exported.hpp"
-#include "spoolflow/export/fmu/fmi2_instance.hpp"
+#include "spoolflow/export/fmu/fmi2.hpp"
+#include "spoolflow/export/fmu/handle.hpp"
 
-using spoolflow::exports::fmu::not_offered_in_fmi2;
+using spoolflow::exports::fmu::not_offered;
 using std::size_t;
 
 /// Defines a function of the standard that answers that it is not offered; its arguments after the instance follow its
 /// name.
 #define SPOOLFLOW_NOT_IN_FMI2(function, ...)                                              \
   SPOOLFLOW_FMI fmi2Status function(fmi2Component component __VA_OPT__(, ) __VA_ARGS__) { \
-    return not_offered_in_fmi2(component, #function);                                     \
+    return not_offered<fmi2Status>(component, #function);                                 \
   }
 
 SPOOLFLOW_NOT_IN_FMI2(fmi2GetDirectionalDerivative, const fmi2ValueReference[], size_t, const fmi2ValueReference[],

@@ -1,22 +1,38 @@
-/// FMI 3.0: the functions that a co-simulation FMU works by, but for its values.
+/// FMI 3.0: instances of co-simulation, and the functions that they work by, but for their values.
 #include <cstring>
 
 #include "spoolflow/export/fmu/exported.hpp"
-#include "spoolflow/export/fmu/fmi3_instance.hpp"
+#include "spoolflow/export/fmu/fmi3.hpp"
+#include "spoolflow/export/fmu/handle.hpp"
 
 namespace fmu = spoolflow::exports::fmu;
-using fmu::Fmi3Instance;
+using Fmi3Handle = fmu::Handle<fmi3Status>;
 using fmu::Instance;
-using fmu::on_fmi3;
 using fmu::StateBytes;
 using std::size_t;
+
+namespace {
+
+Fmi3Handle::Log log_to(fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger) {
+  return [=](fmi3Status status, const char* category, const std::string& message) {
+    if (logger != nullptr) logger(environment, status, category, message.c_str());
+  };
+}
+
+/// An instance of a kind that this FMU is not.
+fmi3Instance refused(fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger) {
+  log_to(environment, logger)(fmi3Error, "logStatusError", "this FMU offers co-simulation only");
+  return nullptr;
+}
+
+}  // namespace
 
 SPOOLFLOW_FMI const char* fmi3GetVersion() {
   return "3.0";
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3SetDebugLogging(fmi3Instance handle, fmi3Boolean, size_t, const fmi3String[]) {
-  return on_fmi3(handle, [](Instance&) {});  // warnings and errors are always logged, and nothing else is
+  return fmu::on<fmi3Status>(handle, [](Instance&) {});  // warnings and errors are always logged, and nothing else is
 }
 
 SPOOLFLOW_FMI fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String resources,
@@ -25,7 +41,7 @@ SPOOLFLOW_FMI fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3Stri
                                                        size_t intermediate_variables,
                                                        fmi3InstanceEnvironment environment,
                                                        fmi3LogMessageCallback logger, fmi3IntermediateUpdateCallback) {
-  auto out = std::make_unique<Fmi3Instance>(environment, logger);
+  auto out = std::make_unique<Fmi3Handle>(log_to(environment, logger));
   const fmi3Status status = out->guarded([&] {
     if (name == nullptr || *name == '\0') throw fmu::CallError("an instance needs a name");
     if (token == nullptr) throw fmu::CallError("instantiationToken is missing");
@@ -39,54 +55,67 @@ SPOOLFLOW_FMI fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3Stri
   return status == fmi3OK ? out.release() : nullptr;
 }
 
+SPOOLFLOW_FMI fmi3Instance fmi3InstantiateModelExchange(fmi3String, fmi3String, fmi3String, fmi3Boolean, fmi3Boolean,
+                                                        fmi3InstanceEnvironment environment,
+                                                        fmi3LogMessageCallback logger) {
+  return refused(environment, logger);
+}
+
+SPOOLFLOW_FMI fmi3Instance fmi3InstantiateScheduledExecution(fmi3String, fmi3String, fmi3String, fmi3Boolean,
+                                                             fmi3Boolean, fmi3InstanceEnvironment environment,
+                                                             fmi3LogMessageCallback logger, fmi3ClockUpdateCallback,
+                                                             fmi3LockPreemptionCallback, fmi3UnlockPreemptionCallback) {
+  return refused(environment, logger);
+}
+
 SPOOLFLOW_FMI void fmi3FreeInstance(fmi3Instance handle) {
-  delete static_cast<Fmi3Instance*>(handle);
+  delete static_cast<Fmi3Handle*>(handle);
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3EnterInitializationMode(fmi3Instance handle, fmi3Boolean, fmi3Float64,
                                                      fmi3Float64 start_time, fmi3Boolean stop_defined,
                                                      fmi3Float64 stop_time) {
-  return on_fmi3(handle, [&](Instance& instance) {
+  return fmu::on<fmi3Status>(handle, [&](Instance& instance) {
     instance.set_up(start_time, stop_defined, stop_time);
     instance.enter_initialization();
   });
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3ExitInitializationMode(fmi3Instance handle) {
-  return on_fmi3(handle, [](Instance& instance) { instance.exit_initialization(); });
+  return fmu::on<fmi3Status>(handle, [](Instance& instance) { instance.exit_initialization(); });
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3Terminate(fmi3Instance handle) {
-  return on_fmi3(handle, [](Instance& instance) { instance.terminate(); });
+  return fmu::on<fmi3Status>(handle, [](Instance& instance) { instance.terminate(); });
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3Reset(fmi3Instance handle) {
-  return on_fmi3(handle, [](Instance& instance) { instance.reset(); });
+  return fmu::on<fmi3Status>(handle, [](Instance& instance) { instance.reset(); });
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3GetFMUState(fmi3Instance handle, fmi3FMUState* state) {
-  return on_fmi3(handle, [&](Instance& instance) { fmu::keep_state(*state, instance.state()); });
+  return fmu::on<fmi3Status>(handle, [&](Instance& instance) { fmu::keep_state(*state, instance.state()); });
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3SetFMUState(fmi3Instance handle, fmi3FMUState state) {
-  return on_fmi3(handle, [&](Instance& instance) { instance.set_state(fmu::bytes_of(state)); });
+  return fmu::on<fmi3Status>(handle, [&](Instance& instance) { instance.set_state(fmu::bytes_of(state)); });
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3FreeFMUState(fmi3Instance handle, fmi3FMUState* state) {
-  return on_fmi3(handle, [&](Instance&) { fmu::free_state(state); });
+  return fmu::on<fmi3Status>(handle, [&](Instance&) { fmu::free_state(state); });
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3SerializedFMUStateSize(fmi3Instance handle, fmi3FMUState state, size_t* size) {
-  return on_fmi3(handle, [&](Instance&) { *size = fmu::bytes_of(state).size(); });
+  return fmu::on<fmi3Status>(handle, [&](Instance&) { *size = fmu::bytes_of(state).size(); });
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3SerializeFMUState(fmi3Instance handle, fmi3FMUState state, fmi3Byte bytes[], size_t size) {
-  return on_fmi3(handle, [&](Instance&) { fmu::copy_state(state, bytes, size); });
+  return fmu::on<fmi3Status>(handle, [&](Instance&) { fmu::copy_state(state, bytes, size); });
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3DeserializeFMUState(fmi3Instance handle, const fmi3Byte bytes[], size_t size,
                                                  fmi3FMUState* state) {
-  return on_fmi3(handle, [&](Instance& instance) {
+  return fmu::on<fmi3Status>(handle, [&](Instance& instance) {
     StateBytes read(size);
     if (size > 0) std::memcpy(read.data(), bytes, size);
     instance.check_state(read);
@@ -94,15 +123,10 @@ SPOOLFLOW_FMI fmi3Status fmi3DeserializeFMUState(fmi3Instance handle, const fmi3
   });
 }
 
-SPOOLFLOW_FMI fmi3Status fmi3EnterStepMode(fmi3Instance handle) {
-  return fmu::not_offered_in_fmi3(handle,
-                                  "fmi3EnterStepMode");  // it leads out of event mode, which this FMU does not have
-}
-
 SPOOLFLOW_FMI fmi3Status fmi3DoStep(fmi3Instance handle, fmi3Float64 time, fmi3Float64 step, fmi3Boolean,
                                     fmi3Boolean* event_handling_needed, fmi3Boolean* terminate_simulation,
                                     fmi3Boolean* early_return, fmi3Float64* last_successful_time) {
-  return on_fmi3(handle, [&](Instance& instance) {
+  return fmu::on<fmi3Status>(handle, [&](Instance& instance) {
     if (event_handling_needed != nullptr) *event_handling_needed = false;
     if (terminate_simulation != nullptr) *terminate_simulation = false;
     if (early_return != nullptr) *early_return = false;

@@ -1,41 +1,19 @@
 /// FMI 3.0: functions that every FMU must have and this one does not offer, because modelDescription.xml says so.
 #include "spoolflow/export/fmu/exported.hpp"
-#include "spoolflow/export/fmu/fmi3_instance.hpp"
+#include "spoolflow/export/fmu/fmi3.hpp"
+#include "spoolflow/export/fmu/handle.hpp"
 
-using spoolflow::exports::fmu::Fmi3Instance;
-using spoolflow::exports::fmu::not_offered_in_fmi3;
+using spoolflow::exports::fmu::not_offered;
 using std::size_t;
 
 /// Defines a function of the standard that answers that it is not offered; its arguments after the instance follow its
 /// name.
 #define SPOOLFLOW_NOT_IN_FMI3(function, ...)                                          \
   SPOOLFLOW_FMI fmi3Status function(fmi3Instance handle __VA_OPT__(, ) __VA_ARGS__) { \
-    return not_offered_in_fmi3(handle, #function);                                    \
+    return not_offered<fmi3Status>(handle, #function);                                \
   }
 
-namespace {
-
-/// An instance of a kind that this FMU is not.
-fmi3Instance refused(fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger) {
-  Fmi3Instance(environment, logger).log(fmi3Error, "logStatusError", "this FMU offers co-simulation only");
-  return nullptr;
-}
-
-}  // namespace
-
-SPOOLFLOW_FMI fmi3Instance fmi3InstantiateModelExchange(fmi3String, fmi3String, fmi3String, fmi3Boolean, fmi3Boolean,
-                                                        fmi3InstanceEnvironment environment,
-                                                        fmi3LogMessageCallback logger) {
-  return refused(environment, logger);
-}
-
-SPOOLFLOW_FMI fmi3Instance fmi3InstantiateScheduledExecution(fmi3String, fmi3String, fmi3String, fmi3Boolean,
-                                                             fmi3Boolean, fmi3InstanceEnvironment environment,
-                                                             fmi3LogMessageCallback logger, fmi3ClockUpdateCallback,
-                                                             fmi3LockPreemptionCallback, fmi3UnlockPreemptionCallback) {
-  return refused(environment, logger);
-}
-
+SPOOLFLOW_NOT_IN_FMI3(fmi3EnterStepMode);  // it leads out of event mode
 SPOOLFLOW_NOT_IN_FMI3(fmi3EnterEventMode);
 SPOOLFLOW_NOT_IN_FMI3(fmi3GetNumberOfVariableDependencies, fmi3ValueReference, size_t*);
 SPOOLFLOW_NOT_IN_FMI3(fmi3GetVariableDependencies, fmi3ValueReference, size_t[], fmi3ValueReference[], size_t[],

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "spoolflow/export/checksum.hpp"
+#include "spoolflow/numerics/checksum.hpp"
 
 namespace spoolflow::exports::fmu {
 namespace {
@@ -65,7 +65,7 @@ std::string resource_bytes(const Resource& resource) {
   put(out, resource.name);
   put(out, resource.numbers.size());
   out.append(reinterpret_cast<const char*>(resource.numbers.data()), resource.numbers.size() * sizeof(double));
-  put(out, checksum(out.data(), out.size()));
+  put(out, numerics::checksum(out.data(), out.size()));
   return out;
 }
 
@@ -77,7 +77,7 @@ Resource parse_resource(std::string_view bytes, const std::string& file) {
   if (bytes.size() < magic.size() + sizeof expected) throw ResourceError(file + ": the file was cut short" + remedy);
   const std::string_view body = bytes.substr(0, bytes.size() - sizeof expected);
   std::memcpy(&expected, bytes.data() + body.size(), sizeof expected);
-  if (checksum(body.data(), body.size()) != expected) {
+  if (numerics::checksum(body.data(), body.size()) != expected) {
     throw ResourceError(file + ": the file is damaged or was cut short, its checksum does not hold" + remedy);
   }
   Resource out;

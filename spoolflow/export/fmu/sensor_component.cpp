@@ -134,7 +134,7 @@ std::unique_ptr<Component> made(const Resource& resource, std::string_view estim
 
 std::unique_ptr<Component> load_component(const std::string& resource_folder, const std::string& token) {
   const Resource resource = read_resource(resource_folder, token);
-  const std::uint64_t identity = checksum(resource.token.data(), resource.token.size());
+  const std::uint64_t identity = numerics::checksum(resource.token.data(), resource.token.size());
   if (resource.numbers.size() < 2) throw ResourceError("the resource holds no sensor");
   std::unique_ptr<Component> out = made<Observer>(resource, "observer", identity);
   if (!out) out = made<Condensed>(resource, "condensed", identity);

@@ -3,13 +3,15 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
-#include "spoolflow/export/checksum.hpp"
 #include "spoolflow/export/fmu/resource.hpp"
 #include "spoolflow/model/describe_condensed.hpp"
 #include "spoolflow/model/describe_observer.hpp"
+#include "spoolflow/numerics/checksum.hpp"
 
 namespace spoolflow::exports::fmu {
 
@@ -71,36 +73,21 @@ class NumberVisitor {
   void named(std::string_view key) { keys_.add(key.data(), key.size()); }
 
   Each each_;
-  Checksum keys_;
+  numerics::Checksum keys_;
 };
 
 /// Calls visitor for the parameters of either estimator, of one direction or of both.
-template <class T, class Visitor>
-void describe(sensor::CondensedParameters<T>& parameters, Visitor& visitor) {
-  model::describe_condensed(parameters, visitor);
-}
-template <class T, class Visitor>
-void describe(const sensor::CondensedParameters<T>& parameters, Visitor& visitor) {
-  model::describe_condensed(parameters, visitor);
-}
-template <class T, class Visitor>
-void describe(sensor::ObserverParameters<T>& parameters, Visitor& visitor) {
-  model::describe_observer(parameters, visitor);
-}
-template <class T, class Visitor>
-void describe(const sensor::ObserverParameters<T>& parameters, Visitor& visitor) {
-  model::describe_observer(parameters, visitor);
-}
-
 template <class Parameters, class Visitor>
-void describe(BothDirections<Parameters>& parameters, Visitor& visitor) {
-  describe(parameters.b, visitor);
-  describe(parameters.a, visitor);
-}
-template <class Parameters, class Visitor>
-void describe(const BothDirections<Parameters>& parameters, Visitor& visitor) {
-  describe(parameters.b, visitor);
-  describe(parameters.a, visitor);
+void describe(Parameters& parameters, Visitor& visitor) {
+  using Of = std::remove_const_t<Parameters>;
+  if constexpr (std::is_same_v<Of, sensor::CondensedParameters<double>>) {
+    model::describe_condensed(parameters, visitor);
+  } else if constexpr (std::is_same_v<Of, sensor::ObserverParameters<double>>) {
+    model::describe_observer(parameters, visitor);
+  } else {
+    describe(parameters.b, visitor);
+    describe(parameters.a, visitor);
+  }
 }
 
 template <class Parameters>

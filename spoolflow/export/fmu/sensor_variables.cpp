@@ -47,25 +47,6 @@ struct TunableVisitor {
   }
 };
 
-template <class Parameters>
-std::vector<TunableNumber> found_in(Parameters& parameters) {
-  std::vector<TunableNumber> found;
-  TunableVisitor visitor{found};
-  describe(parameters, visitor);
-  return found;
-}
-
-template <class Parameters>
-std::vector<TunableNumber> found_in(BothDirections<Parameters>& parameters) {
-  std::vector<TunableNumber> found = found_in(parameters.b);
-  for (TunableNumber& number : found) number.name = "b." + number.name;
-  for (TunableNumber& number : found_in(parameters.a)) {
-    number.name = "a." + number.name;
-    found.push_back(std::move(number));
-  }
-  return found;
-}
-
 Variable tunable_parameter(const TunableNumber& number) {
   return {.name = number.name,
           .description = number.about.meaning,
@@ -118,21 +99,27 @@ std::vector<Variable> sensor_settings() {
 
 }  // namespace
 
-std::vector<TunableNumber> tunable_numbers(sensor::CondensedParameters<double>& parameters) {
-  return found_in(parameters);
+template <class Parameters>
+std::vector<TunableNumber> tunable_numbers(Parameters& parameters) {
+  std::vector<TunableNumber> found;
+  if constexpr (requires { parameters.a; }) {
+    found = tunable_numbers(parameters.b);
+    for (TunableNumber& number : found) number.name = "b." + number.name;
+    for (TunableNumber& number : tunable_numbers(parameters.a)) {
+      number.name = "a." + number.name;
+      found.push_back(std::move(number));
+    }
+  } else {
+    TunableVisitor visitor{found};
+    describe(parameters, visitor);
+  }
+  return found;
 }
 
-std::vector<TunableNumber> tunable_numbers(sensor::ObserverParameters<double>& parameters) {
-  return found_in(parameters);
-}
-
-std::vector<TunableNumber> tunable_numbers(BothDirections<sensor::CondensedParameters<double>>& parameters) {
-  return found_in(parameters);
-}
-
-std::vector<TunableNumber> tunable_numbers(BothDirections<sensor::ObserverParameters<double>>& parameters) {
-  return found_in(parameters);
-}
+template std::vector<TunableNumber> tunable_numbers(BothDirections<sensor::CondensedParameters<double>>& parameters);
+template std::vector<TunableNumber> tunable_numbers(BothDirections<sensor::ObserverParameters<double>>& parameters);
+template std::vector<TunableNumber> tunable_numbers(sensor::CondensedParameters<double>& parameters);
+template std::vector<TunableNumber> tunable_numbers(sensor::ObserverParameters<double>& parameters);
 
 std::vector<Variable> sensor_variables(const SensorScale& scale, const std::vector<TunableNumber>& tunable) {
   std::vector<Variable> all{

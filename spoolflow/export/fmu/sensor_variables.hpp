@@ -27,13 +27,9 @@ struct TunableNumber {
   model::Parameter about;
   double* value;  ///< inside the parameters
 };
-[[nodiscard]] std::vector<TunableNumber> tunable_numbers(sensor::CondensedParameters<double>& parameters);
-[[nodiscard]] std::vector<TunableNumber> tunable_numbers(sensor::ObserverParameters<double>& parameters);
-
-[[nodiscard]] std::vector<TunableNumber> tunable_numbers(
-    BothDirections<sensor::CondensedParameters<double>>& parameters);
-[[nodiscard]] std::vector<TunableNumber> tunable_numbers(
-    BothDirections<sensor::ObserverParameters<double>>& parameters);
+/// Of either estimator, of one direction or of both.
+template <class Parameters>
+[[nodiscard]] std::vector<TunableNumber> tunable_numbers(Parameters& parameters);
 
 /// Scales of one valve, for nominal values.
 struct SensorScale {

@@ -195,7 +195,7 @@ std::unique_ptr<Component> load_component(const std::string& resource_folder, co
     throw ResourceError("the resource holds '" + resource.kind +
                         "', not a virtual valve of this version; export the FMU again with `spoolflow export fmu`");
   }
-  return std::make_unique<ValveComponent>(resource, checksum(resource.token.data(), resource.token.size()));
+  return std::make_unique<ValveComponent>(resource, numerics::checksum(resource.token.data(), resource.token.size()));
 }
 
 }  // namespace spoolflow::exports::fmu

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "spoolflow/export/checksum.hpp"
 #include "spoolflow/export/fmu/resource.hpp"
+#include "spoolflow/numerics/checksum.hpp"
 #include "spoolflow/rig/electronics/electronics.hpp"
 #include "spoolflow/rig/instruments/instruments.hpp"
 #include "spoolflow/rig/plant/valve_plant.hpp"
@@ -45,7 +45,7 @@ inline std::vector<double> numbers_of(const VirtualValve& valve) {
 
 /// Name of the order of the numbers.
 inline std::string valve_order() {
-  Checksum keys;
+  numerics::Checksum keys;
   const VirtualValve any;
   rig::for_each_parameter(
       any, [&](std::string_view path, const rig::Parameter&, double) { keys.add(path.data(), path.size()); });
