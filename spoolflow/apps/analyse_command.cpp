@@ -16,8 +16,7 @@
 #include "spoolflow/report/analysis/analysis_report.hpp"
 #include "spoolflow/report/analysis/analysis_verdict.hpp"
 #include "spoolflow/report/analysis/dither_report.hpp"
-#include "spoolflow/report/json/analysis_json.hpp"
-#include "spoolflow/report/json/dither_json.hpp"
+#include "spoolflow/report/json/results_json.hpp"
 
 namespace spoolflow::apps {
 namespace {

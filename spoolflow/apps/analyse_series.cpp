@@ -13,7 +13,7 @@
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/report/analysis/series_study_report.hpp"
-#include "spoolflow/report/json/series_study_json.hpp"
+#include "spoolflow/report/json/results_json.hpp"
 
 namespace spoolflow::apps {
 namespace {

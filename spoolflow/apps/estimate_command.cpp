@@ -19,7 +19,7 @@
 #include "spoolflow/apps/work/notes.hpp"
 #include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/recording/open_table.hpp"
-#include "spoolflow/report/json/estimate_json.hpp"
+#include "spoolflow/report/json/results_json.hpp"
 
 namespace spoolflow::apps {
 namespace {

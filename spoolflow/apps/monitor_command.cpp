@@ -21,7 +21,7 @@
 #include "spoolflow/apps/work/monitored_recording.hpp"
 #include "spoolflow/apps/work/notes.hpp"
 #include "spoolflow/monitor/adaptation.hpp"
-#include "spoolflow/report/json/monitor_json.hpp"
+#include "spoolflow/report/json/results_json.hpp"
 #include "spoolflow/report/monitor/monitor_report.hpp"
 
 namespace spoolflow::apps {

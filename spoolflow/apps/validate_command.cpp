@@ -16,7 +16,7 @@
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/work/notes.hpp"
 #include "spoolflow/calibration/environment.hpp"
-#include "spoolflow/report/json/metrics_json.hpp"
+#include "spoolflow/report/json/results_json.hpp"
 #include "spoolflow/report/validation/requirements_table.hpp"
 #include "spoolflow/report/validation/validation_report.hpp"
 #include "spoolflow/report/validation/verdict.hpp"

@@ -1,4 +1,6 @@
 /// modelDescription.xml and buildDescription.xml by FMI 3.0.
+#include <array>
+
 #include <fmt/format.h>
 
 #include "spoolflow/export/fmu/number_text.hpp"
@@ -15,15 +17,8 @@ using fmu::Type;
 using fmu::Variable;
 
 const char* element(Type type) {
-  switch (type) {
-    case Type::real:
-      return "Float64";
-    case Type::integer:
-      return "Int32";
-    case Type::boolean:
-      return "Boolean";
-  }
-  return "Float64";
+  static constexpr std::array elements{"Float64", "Int32", "Boolean"};
+  return elements.at(static_cast<std::size_t>(type));
 }
 
 std::string start(const Variable& variable) {

@@ -90,31 +90,13 @@ using fmu::Causality;
 using fmu::Variability;
 
 const char* word(Causality causality) {
-  switch (causality) {
-    case Causality::independent:
-      return "independent";
-    case Causality::parameter:
-      return "parameter";
-    case Causality::input:
-      return "input";
-    case Causality::output:
-      return "output";
-  }
-  return "local";
+  static constexpr std::array words{"independent", "parameter", "input", "output"};
+  return words.at(static_cast<std::size_t>(causality));
 }
 
 const char* word(Variability variability) {
-  switch (variability) {
-    case Variability::fixed:
-      return "fixed";
-    case Variability::tunable:
-      return "tunable";
-    case Variability::discrete:
-      return "discrete";
-    case Variability::continuous:
-      return "continuous";
-  }
-  return "continuous";
+  static constexpr std::array words{"fixed", "tunable", "discrete", "continuous"};
+  return words.at(static_cast<std::size_t>(variability));
 }
 
 std::string initial(const fmu::Variable& variable) {

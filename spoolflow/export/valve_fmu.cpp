@@ -1,5 +1,7 @@
 #include "spoolflow/export/valve_fmu.hpp"
 
+#include <array>
+
 #include <fmt/format.h>
 
 #include "spoolflow/export/embedded_files.hpp"
@@ -14,21 +16,14 @@ namespace spoolflow::exports {
 namespace {
 
 const char* load_name(rig::LoadKind kind) {
-  switch (kind) {
-    case rig::LoadKind::held_difference:
-      return "a bench that holds the pressure difference over the open edge";
-    case rig::LoadKind::held_path:
-      return "a bench that joins the ports and holds the pressure difference over the open path";
-    case rig::LoadKind::held_return:
-      return "a bench that feeds port A and holds the pressure difference over the edge to tank";
-    case rig::LoadKind::orifice:
-      return "an orifice between the ports";
-    case rig::LoadKind::cylinder:
-      return "a differential cylinder";
-    case rig::LoadKind::motor:
-      return "a hydraulic motor with its inertia";
-  }
-  return "";
+  static constexpr std::array names{
+      "a bench that holds the pressure difference over the open edge",
+      "an orifice between the ports",
+      "a differential cylinder",
+      "a hydraulic motor with its inertia",
+      "a bench that joins the ports and holds the pressure difference over the open path",
+      "a bench that feeds port A and holds the pressure difference over the edge to tank"};
+  return names.at(static_cast<std::size_t>(kind));
 }
 
 std::string notes(const rig::ValveUnderTest& valve) {

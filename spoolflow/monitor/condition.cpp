@@ -14,18 +14,7 @@ std::string_view name(Fault fault) {
 }
 
 Ne107 sign_of(Fault fault) {
-  switch (fault) {
-    case Fault::friction:
-    case Fault::edge_wear:
-    case Fault::spring:
-    case Fault::coil:
-      return Ne107::maintenance_required;
-    case Fault::position_sensor:
-    case Fault::temperature_sensor:
-    case Fault::wrong_model:
-      return Ne107::out_of_specification;
-  }
-  return Ne107::good;
+  return fault < Fault::position_sensor ? Ne107::maintenance_required : Ne107::out_of_specification;
 }
 
 std::string_view name(IndicatorState state) {

@@ -76,19 +76,10 @@ class Tracer {
 };
 
 TracedEstimator traced(const Tracer& tracer, const RunSamples& run, const Answers& answers, bool leading) {
-  TracedEstimator out{.estimator = answers.estimator,
-                      .flow_m3_per_s = tracer.column(answers.flow_m3_per_s),
-                      .error_m3_per_s = {},
-                      .pressure_difference_Pa = tracer.column(answers.pressure_difference_Pa),
-                      .lower_m3_per_s = {},
-                      .upper_m3_per_s = {},
-                      .magnetic_force_N = {},
-                      .spring_force_N = {},
-                      .flow_force_N = {},
-                      .friction_force_N = {},
-                      .spring_and_flow_N = {},
-                      .all_forces_N = {},
-                      .status = {}};
+  TracedEstimator out{};
+  out.estimator = answers.estimator;
+  out.flow_m3_per_s = tracer.column(answers.flow_m3_per_s);
+  out.pressure_difference_Pa = tracer.column(answers.pressure_difference_Pa);
   if (!run.reference_m3_per_s.empty()) {
     out.error_m3_per_s =
         tracer.channel([&](std::size_t k) { return answers.flow_m3_per_s[k] - run.reference_m3_per_s[k]; });

@@ -18,7 +18,7 @@
 #include "spoolflow/recording/campaign.hpp"
 #include "spoolflow/recording/written_tables/table_writers.hpp"
 #include "spoolflow/report/calibration/calibration_summary.hpp"
-#include "spoolflow/report/json/metrics_json.hpp"
+#include "spoolflow/report/json/results_json.hpp"
 #include "spoolflow/report/validation/validation_report.hpp"
 #include "spoolflow/report/validation/verdict.hpp"
 #include "spoolflow/rig/bench/recording_file.hpp"

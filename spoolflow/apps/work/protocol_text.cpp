@@ -1,6 +1,7 @@
 #include "spoolflow/apps/work/protocol_text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -16,15 +17,8 @@ namespace {
 using Need = calibration::ProtocolChannel::Need;
 
 std::string_view words(Need need) {
-  switch (need) {
-    case Need::needed:
-      return "needed";
-    case Need::one_of:
-      return "one of these";
-    case Need::helpful:
-      return "helpful";
-  }
-  return "";
+  static constexpr std::array words{"needed", "one of these", "helpful"};
+  return words.at(static_cast<std::size_t>(need));
 }
 
 /// The entries of the proposed map that can be read: a position may be a share of the stroke.

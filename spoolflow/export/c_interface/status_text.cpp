@@ -1,5 +1,6 @@
 /// The texts of spoolflow.h; its status bits are the core's.
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 #include "spoolflow/export/c_interface/spoolflow.h"
@@ -72,25 +73,8 @@ size_t spoolflow_status_text(uint32_t status, char* text, size_t size) {
 }
 
 const char* spoolflow_result_text(spoolflow_result result) {
-  switch (result) {
-    case SPOOLFLOW_OK:
-      return "ok";
-    case SPOOLFLOW_BAD_ARGUMENT:
-      return "bad argument";
-    case SPOOLFLOW_BAD_FILE:
-      return "bad file";
-    case SPOOLFLOW_BAD_MODEL:
-      return "bad model";
-    case SPOOLFLOW_NOT_CALIBRATED:
-      return "not calibrated";
-    case SPOOLFLOW_BAD_STATE:
-      return "bad state";
-    case SPOOLFLOW_TOO_SMALL:
-      return "buffer too small";
-    case SPOOLFLOW_OUT_OF_MEMORY:
-      return "out of memory";
-    case SPOOLFLOW_FAILED:
-      return "failed";
-  }
-  return "unknown result";
+  static constexpr std::array texts{"ok",        "bad argument",     "bad file",      "bad model", "not calibrated",
+                                    "bad state", "buffer too small", "out of memory", "failed"};
+  const auto place = static_cast<std::size_t>(result);
+  return place < texts.size() ? texts[place] : "unknown result";
 }

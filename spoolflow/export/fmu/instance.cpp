@@ -1,6 +1,7 @@
 #include "spoolflow/export/fmu/instance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -11,17 +12,8 @@ namespace spoolflow::exports::fmu {
 namespace {
 
 const char* name(Mode mode) {
-  switch (mode) {
-    case Mode::instantiated:
-      return "instantiated";
-    case Mode::initialization:
-      return "initialization mode";
-    case Mode::step:
-      return "step mode";
-    case Mode::terminated:
-      return "terminated";
-  }
-  return "?";
+  static constexpr std::array names{"instantiated", "initialization mode", "step mode", "terminated"};
+  return names.at(static_cast<std::size_t>(mode));
 }
 
 std::vector<double> starts(const std::vector<Variable>& variables) {

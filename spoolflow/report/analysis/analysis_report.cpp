@@ -7,9 +7,8 @@
 #include <fmt/format.h>
 
 #include "spoolflow/report/analysis/analysis_verdict.hpp"
-#include "spoolflow/report/analysis/budget_tables.hpp"
+#include "spoolflow/report/analysis/budget_sections.hpp"
 #include "spoolflow/report/analysis/operating_map_figure.hpp"
-#include "spoolflow/report/analysis/run_budget_section.hpp"
 #include "spoolflow/report/calibration/model_sections.hpp"
 #include "spoolflow/report/page/html_page.hpp"
 #include "spoolflow/report/text/html_text.hpp"
@@ -50,12 +49,6 @@ Text place_of(const PointResult& result) {
                 fixed(units::pressure(result.point.pressure_difference_Pa), 0),
                 fixed(units::temperature(result.point.oil_temperature_K), 0),
                 result.point.opening ? "opening" : "closing");
-}
-
-void show_verdict(HtmlPage& page, const AnalysisVerdict& verdict) {
-  page.html(fmt::format("<p class=\"verdict\">{}</p>\n<ul class=\"limits\">", html_text(verdict.sentence)));
-  for (const std::string& remark : verdict.remarks) page.html(fmt::format("<li>{}</li>", html_text(remark)));
-  page.html("</ul>\n");
 }
 
 void show_budget(HtmlPage& page, const model::Model& model, const Analysis& analysis) {
@@ -173,7 +166,9 @@ void write_analysis_report(std::ostream& out, const model::Model& model, const A
                 "Uncertainty of the flow rate of " + model.valve.name + ", f" + std::string(flow_name(model)).substr(1),
                 origin_of(model), units);
   page.headline(headline_of(model));
-  show_verdict(page, analysis_verdict(model, analysis));
+  const AnalysisVerdict verdict = analysis_verdict(model, analysis);
+  page.verdict(verdict.sentence);
+  page.remarks(std::vector<Text>(verdict.remarks.begin(), verdict.remarks.end()));
   show_budget(page, model, analysis);
   show_maps(page, model, analysis);
   if (analysis.run) show_run_budget(page, *analysis.run, model.valve.rated_flow_m3_per_s);

@@ -1,8 +1,7 @@
-#include "spoolflow/report/analysis/budget_section.hpp"
 
 #include <fmt/format.h>
 
-#include "spoolflow/report/analysis/budget_tables.hpp"
+#include "spoolflow/report/analysis/budget_sections.hpp"
 #include "spoolflow/report/text/number_text.hpp"
 #include "spoolflow/validation/validate.hpp"
 

@@ -1,10 +1,9 @@
-#include "spoolflow/report/analysis/budget_tables.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "spoolflow/report/analysis/budget_sections.hpp"
 #include "spoolflow/report/text/html_text.hpp"
 #include "spoolflow/report/text/number_text.hpp"
 

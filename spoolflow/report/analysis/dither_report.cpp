@@ -204,9 +204,8 @@ void write_dither_report(std::ostream& out, const model::Model& model, const Dit
                 "How to dither " + model.valve.name + ", f" + std::string(flow_name(model)).substr(1), origin_of(model),
                 units);
   const DitherVerdict verdict = dither_verdict(model, study);
-  page.html(fmt::format("<p class=\"verdict\">{}</p>\n<ul class=\"limits\">", html_text(verdict.sentence.in(units))));
-  for (const Text& remark : verdict.remarks) page.html(fmt::format("<li>{}</li>", html_text(remark.in(units))));
-  page.html("</ul>\n");
+  page.verdict(verdict.sentence);
+  page.remarks(verdict.remarks);
   page.section("Over amplitude and frequency");
   page.paragraph(
       "The band at rest is what friction and the maps leave open of the flow force. Dither takes half the swing of the "

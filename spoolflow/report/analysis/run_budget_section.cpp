@@ -1,10 +1,9 @@
-#include "spoolflow/report/analysis/run_budget_section.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "spoolflow/report/analysis/budget_sections.hpp"
 #include "spoolflow/report/figures/bar_chart.hpp"
 #include "spoolflow/report/figures/figure.hpp"
 #include "spoolflow/report/text/html_text.hpp"

@@ -122,7 +122,7 @@ void write_series_study_report(std::ostream& out, const model::Model& type, cons
                                const ReaderUnits& units) {
   HtmlPage page("spoolflow series study", "Units of " + type.type->name, origin_of(type), units);
   page.headline(fmt::format("{} virtual units of {}, seed {}", study.units.size(), study.valve, study.seed));
-  page.html(fmt::format("<p class=\"verdict\">{}</p>\n", html_text(series_verdict(study))));
+  page.verdict(series_verdict(study));
   page.section("What is known of a unit, and what it buys");
   for (std::size_t run = 0; run < analysis::series_runs; ++run) {
     page.subsection(fmt::format("{}, {} s", series_run_name(run), fixed(study.run_s[run], 0)));

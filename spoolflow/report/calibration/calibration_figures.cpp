@@ -94,8 +94,7 @@ CaptionedFigure flow_force_figure(const model::Evidence& evidence) {
           phrase("Flow rate over axial force (the paper's Fig. 5) at held pressure differences of {} {}, pale to "
                  "deep. Between an opening and its closing line lies twice the friction. Along a line of position "
                  "the flow is read off the force: the steeper the line, the more flow a newton of error costs.",
-                 levels, unit_text(Kind::pressure)),
-          {}};
+                 levels, unit_text(Kind::pressure))};
 }
 
 CaptionedFigure magnetic_force_figure(const model::Evidence& evidence) {
@@ -121,8 +120,7 @@ CaptionedFigure magnetic_force_figure(const model::Evidence& evidence) {
            .x_quantity = Kind::length,
            .panels = {std::move(panel)}},
           "Magnetic force over position (the paper's Fig. 8) at held currents. The gap between both directions is "
-          "hysteresis and friction of the armature; the sensor's map is their mean.",
-          {}};
+          "hysteresis and friction of the armature; the sensor's map is their mean."};
 }
 
 CaptionedFigure friction_figure(const model::Evidence& evidence) {
@@ -147,8 +145,7 @@ CaptionedFigure friction_figure(const model::Evidence& evidence) {
        .panels = {std::move(panel)}},
       phrase("Half the width of the axial-force loops: friction that averaging removes from the map and that "
              "stays in the signal. It is {} on average at the lowest pressure difference and {} at the highest.",
-             fixed(units::force(loops.empty() ? NAN : least), 1), fixed(units::force(loops.empty() ? NAN : most), 1)),
-      {}};
+             fixed(units::force(loops.empty() ? NAN : least), 1), fixed(units::force(loops.empty() ? NAN : most), 1))};
 }
 
 CaptionedFigure hysteresis_figure(const model::Evidence& evidence) {
@@ -171,8 +168,7 @@ CaptionedFigure hysteresis_figure(const model::Evidence& evidence) {
            .x_quantity = Kind::length,
            .panels = {std::move(panel)}},
           phrase("Half the width of the magnetic-force loops, at most {} (at {}).", fixed(units::force(widest), 1),
-                 fixed(units::current(widest_at_A), 1)),
-          {}};
+                 fixed(units::current(widest_at_A), 1))};
 }
 
 }  // namespace spoolflow::report

@@ -1,11 +1,10 @@
-#include "spoolflow/report/calibration/fits_section.hpp"
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "spoolflow/report/calibration/model_sections.hpp"
 #include "spoolflow/report/page/html_table.hpp"
 #include "spoolflow/report/text/html_text.hpp"
 #include "spoolflow/report/text/number_text.hpp"

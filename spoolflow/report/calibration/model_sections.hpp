@@ -25,4 +25,13 @@ void show_maps(HtmlPage& page, const model::Model& model);
 /// Where a newton of force error costs much flow, and why.
 void show_blindness(HtmlPage& page, const model::Model& model, const std::vector<validation::RunResult>& runs);
 
+/// Loops of `solenoid_dynamic` with the model's, and residuals of both maps; nothing where the model has none of them.
+void show_model_against_bench(HtmlPage& page, const model::Model& model);
+
+/// Parameters with uncertainties, and the closest correlations; nothing where the model has no such fits.
+void show_fits(HtmlPage& page, const model::Model& model);
+/// Flow force and friction over position at the lowest, middle and highest calibrated oil temperature, at two thirds of
+/// the highest pressure difference; nothing where the model has no observer or only one temperature.
+void show_temperatures(HtmlPage& page, const model::Model& model);
+
 }  // namespace spoolflow::report

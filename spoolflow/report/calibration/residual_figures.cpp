@@ -1,5 +1,3 @@
-#include "spoolflow/report/calibration/residual_figures.hpp"
-
 #include <algorithm>
 #include <functional>
 #include <map>
@@ -8,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/calibration/numerics/fit_residual.hpp"
+#include "spoolflow/report/calibration/model_sections.hpp"
 
 namespace spoolflow::report {
 namespace {

@@ -38,7 +38,7 @@ struct Span {
 struct Row {
   std::string label;
   std::string tone;
-  std::vector<Span> spans;
+  std::vector<Span> spans = {};
 };
 
 /// A coloured rectangle of a heat map.

@@ -1,11 +1,10 @@
-#include "spoolflow/report/json/analysis_json.hpp"
-
 #include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "spoolflow/report/analysis/analysis_verdict.hpp"
+#include "spoolflow/report/json/results_json.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {

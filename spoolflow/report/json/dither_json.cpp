@@ -1,8 +1,7 @@
-#include "spoolflow/report/json/dither_json.hpp"
-
 #include <nlohmann/json.hpp>
 
 #include "spoolflow/report/analysis/dither_report.hpp"
+#include "spoolflow/report/json/results_json.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {

@@ -1,9 +1,8 @@
-#include "spoolflow/report/json/estimate_json.hpp"
-
 #include <ostream>
 
 #include <nlohmann/json.hpp>
 
+#include "spoolflow/report/json/results_json.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {

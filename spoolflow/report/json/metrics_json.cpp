@@ -1,11 +1,10 @@
-#include "spoolflow/report/json/metrics_json.hpp"
-
 #include <algorithm>
 #include <array>
 #include <ostream>
 
 #include <nlohmann/json.hpp>
 
+#include "spoolflow/report/json/results_json.hpp"
 #include "spoolflow/report/json/type_json.hpp"
 #include "spoolflow/report/validation/verdict.hpp"
 #include "spoolflow/units/conversion.hpp"
@@ -16,17 +15,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const char* source_name(validation::MeterSource source) {
-  switch (source) {
-    case validation::MeterSource::given:
-      return "given";
-    case validation::MeterSource::this_run:
-      return "this_run";
-    case validation::MeterSource::other_runs:
-      return "other_runs";
-    case validation::MeterSource::none:
-      break;
-  }
-  return "none";
+  static constexpr std::array names{"given", "this_run", "other_runs", "none"};
+  return names.at(static_cast<std::size_t>(source));
 }
 
 class MetricsJson {

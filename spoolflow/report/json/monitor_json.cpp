@@ -1,11 +1,10 @@
-#include "spoolflow/report/json/monitor_json.hpp"
-
 #include <ostream>
 
 #include <nlohmann/json.hpp>
 
 #include "spoolflow/model/json_text.hpp"
 #include "spoolflow/monitor/baseline.hpp"
+#include "spoolflow/report/json/results_json.hpp"
 #include "spoolflow/report/json/type_json.hpp"
 
 namespace spoolflow::report {

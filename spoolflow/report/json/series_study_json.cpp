@@ -1,10 +1,9 @@
-#include "spoolflow/report/json/series_study_json.hpp"
-
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "spoolflow/report/analysis/series_study_report.hpp"
+#include "spoolflow/report/json/results_json.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {

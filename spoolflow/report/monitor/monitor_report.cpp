@@ -1,5 +1,6 @@
 #include "spoolflow/report/monitor/monitor_report.hpp"
 
+#include <array>
 #include <cmath>
 #include <ostream>
 
@@ -29,35 +30,19 @@ std::string unit_of(const monitor::Indicator& indicator) {
   return indicator.unit == "1" ? "" : std::string(indicator.unit);
 }
 
-std::string readable(std::string_view name) {
-  std::string out(name);
-  for (char& letter : out) {
-    if (letter == '_') letter = ' ';
-  }
-  return out;
-}
-
 std::string sentence(monitor::Ne107 sign) {
-  switch (sign) {
-    case monitor::Ne107::good:
-      return "Nothing contradicts the model.";
-    case monitor::Ne107::maintenance_required:
-      return "Maintenance required (NE 107: M): the valve wears.";
-    case monitor::Ne107::out_of_specification:
-      return "Out of specification (NE 107: S): the answer's band does not hold.";
-    case monitor::Ne107::function_check:
-      return "Function check (NE 107: C): the inputs are missing.";
-    case monitor::Ne107::failure:
-      return "Failure (NE 107: F): an input or the coil has failed.";
-  }
-  return {};
+  static constexpr std::array sentences{
+      "Nothing contradicts the model.", "Maintenance required (NE 107: M): the valve wears.",
+      "Out of specification (NE 107: S): the answer's band does not hold.",
+      "Function check (NE 107: C): the inputs are missing.", "Failure (NE 107: F): an input or the coil has failed."};
+  return sentences.at(static_cast<std::size_t>(sign));
 }
 
 std::string causes_text(const std::vector<monitor::Cause>& causes) {
   std::string out;
   for (const monitor::Cause& cause : causes) {
     if (!out.empty()) out += ", ";
-    out += fmt::format("{} ({:.3g} to 1)", readable(monitor::name(cause.fault)), cause.odds);
+    out += fmt::format("{} ({:.3g} to 1)", spaced(monitor::name(cause.fault)), cause.odds);
   }
   return out.empty() ? "none" : out;
 }
@@ -66,7 +51,7 @@ HtmlTable indicator_table(const std::vector<monitor::Indicator>& indicators) {
   HtmlTable table(
       {{"Indicator", Set::text}, {"Value"}, {"± 95 %"}, {"Baseline"}, {"Unit", Set::text}, {"State", Set::text}});
   for (const monitor::Indicator& each : indicators) {
-    table.row({html_text(readable(each.name)), figure_text(in_its_unit(each, each.value)),
+    table.row({html_text(spaced(each.name)), figure_text(in_its_unit(each, each.value)),
                figure_text(in_its_unit(each, each.uncertainty_95)), figure_text(in_its_unit(each, each.baseline)),
                html_text(unit_of(each)), html_text(std::string(monitor::name(each.state)))});
   }
@@ -99,7 +84,7 @@ CaptionedFigure trend_figure(const std::vector<TrendPoint>& trend) {
     }
     if (!known) continue;
     const std::string unit = unit_of(first);
-    Panel panel{.title = readable(first.name) + (unit.empty() ? "" : " [" + unit + "]"), .height_px = 110};
+    Panel panel{.title = spaced(first.name) + (unit.empty() ? "" : " [" + unit + "]"), .height_px = 110};
     panel.marks = {std::move(band), std::move(line), std::move(base)};
     out.figure.panels.push_back(std::move(panel));
   }
@@ -119,8 +104,7 @@ void write_monitor_report(std::ostream& out, const model::Model& model, const mo
   page.headline(headline_of(model));
   page.html(fmt::format("<p class=\"verdict\">{}</p>\n<ul class=\"limits\">", html_text(sentence(watch.condition()))));
   for (const monitor::Cause& cause : watch.causes()) {
-    page.html(
-        fmt::format("<li>{}: odds {:.3g} to 1</li>", html_text(readable(monitor::name(cause.fault))), cause.odds));
+    page.html(fmt::format("<li>{}: odds {:.3g} to 1</li>", html_text(spaced(monitor::name(cause.fault))), cause.odds));
   }
   page.html("</ul>\n");
   page.section("Indicators");

@@ -51,6 +51,17 @@ void HtmlPage::headline(const Text& facts) {
   headline_ = fmt::format("<p class=\"facts\">{}</p>\n", html_text(facts.in(units_)));
 }
 
+void HtmlPage::verdict(const Text& sentence) {
+  body_ += fmt::format("<p class=\"verdict\">{}</p>\n", html_text(sentence.in(units_)));
+}
+
+void HtmlPage::remarks(std::span<const Text> remarks) {
+  if (remarks.empty()) return;
+  body_ += "<ul class=\"limits\">";
+  for (const Text& remark : remarks) body_ += "<li>" + html_text(remark.in(units_)) + "</li>";
+  body_ += "</ul>\n";
+}
+
 void HtmlPage::part(std::string_view heading) {
   end_part();
   section(heading);

@@ -2,6 +2,7 @@
 /// One self-contained page: style sheet and script inside, no network. Without script it shows the same, standing
 /// still. Texts, tables and figures are written out in the reader's units here; markup made outside asks `units()`.
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,6 +37,10 @@ class HtmlPage {
 
   /// What stands beside the title: "full scale 80 L/min".
   void headline(const Text& facts);
+  /// What the page says before all.
+  void verdict(const Text& sentence);
+  /// A list; nothing where there are none.
+  void remarks(std::span<const Text> remarks);
   /// The contents stand here; else below the title.
   void contents() { contents_at_ = body_.size(); }
   void section(std::string_view heading);  ///< appears in the contents

@@ -1,20 +1,13 @@
 #include "spoolflow/report/page/html_table.hpp"
 
+#include <array>
+
 namespace spoolflow::report {
 namespace {
 
 const char* class_of(Set set) {
-  switch (set) {
-    case Set::text:
-      return " class=\"text\"";
-    case Set::sentence:
-      return " class=\"text wrap\"";
-    case Set::hash:
-      return " class=\"text hash\"";
-    case Set::number:
-      break;
-  }
-  return "";
+  static constexpr std::array classes{"", " class=\"text\"", " class=\"text wrap\"", " class=\"text hash\""};
+  return classes.at(static_cast<std::size_t>(set));
 }
 
 /// The unit on the heading's second line, two units below each other: columns are as wide as their numbers.

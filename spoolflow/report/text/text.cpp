@@ -15,9 +15,10 @@ Text& Text::operator+=(const Text& more) {
   return *this;
 }
 
-std::string spaced(std::string name) {
-  std::ranges::replace(name, '_', ' ');
-  return name;
+std::string spaced(std::string_view name) {
+  std::string out(name);
+  std::ranges::replace(out, '_', ' ');
+  return out;
 }
 
 Text unit_text(units::Kind kind) {

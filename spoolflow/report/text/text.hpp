@@ -37,7 +37,7 @@ class Text {
 };
 
 /// "slow_ramps" as "slow ramps".
-[[nodiscard]] std::string spaced(std::string name);
+[[nodiscard]] std::string spaced(std::string_view name);
 
 /// The unit alone: "bar".
 [[nodiscard]] Text unit_text(units::Kind kind);

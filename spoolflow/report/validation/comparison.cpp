@@ -13,7 +13,7 @@ namespace {
 /// The validation at hand in the form of the others.
 ComparedValidation at_hand(const model::Model& model, const validation::Validation& validation) {
   const double percent = 100 / model.valve.rated_flow_m3_per_s;
-  ComparedValidation out{model.valve.name, "this report", model.valve.rated_flow_m3_per_s, validation.runs.size(), {}};
+  ComparedValidation out{model.valve.name, "this report", model.valve.rated_flow_m3_per_s, validation.runs.size()};
   for (const validation::PooledResult& pooled : validation.pooled) {
     if (!pooled.metrics) continue;
     const validation::GroupFigures& all = pooled.metrics->all;
@@ -23,9 +23,7 @@ ComparedValidation at_hand(const model::Model& model, const validation::Validati
                            all.error.largest * percent,
                            all.error.bias * percent,
                            100 * all.band_coverage,
-                           all.band_mean_width_m3_per_s * percent,
-                           {},
-                           {}};
+                           all.band_mean_width_m3_per_s * percent};
     constexpr auto pressure = static_cast<std::size_t>(validation::Quantity::pressure_difference);
     for (const validation::ProfileBin& bin : pooled.profiles[pressure].bins()) {
       each.pressure_difference_Pa.push_back(0.5 * (bin.from + bin.to));
@@ -94,9 +92,7 @@ CaptionedFigure pressure_figure(const std::vector<ComparedValidation>& all) {
            .x_title = "Measured pressure difference",
            .x_quantity = units::Kind::pressure,
            .panels = {std::move(panel)}},
-          "Size of the error over the pressure difference, side by side.",
-          {},
-          {}};
+          "Size of the error over the pressure difference, side by side."};
 }
 
 }  // namespace

@@ -20,14 +20,14 @@ struct MetricsError : std::invalid_argument {
 struct ComparedEstimator {
   std::string name;
   double p95, rms, largest, bias, band_coverage_percent, band_mean_width;
-  std::vector<double> pressure_difference_Pa, p95_over_pressure;  ///< middle of each bin
+  std::vector<double> pressure_difference_Pa = {}, p95_over_pressure = {};  ///< middle of each bin
 };
 
 struct ComparedValidation {
   std::string valve, file;
   double full_scale_m3_per_s;
   std::size_t runs;
-  std::vector<ComparedEstimator> estimators;  ///< those with a reference flow; the leading one last
+  std::vector<ComparedEstimator> estimators = {};  ///< those with a reference flow; the leading one last
 };
 
 /// What an earlier `validate --json` wrote (docs/formats/metrics.md). Throws MetricsError with the file and the key.

@@ -1,5 +1,3 @@
-#include "spoolflow/report/validation/direction_figures.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -7,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/report/text/number_text.hpp"
+#include "spoolflow/report/validation/validation_figures.hpp"
 
 namespace spoolflow::report {
 namespace {
@@ -43,9 +42,7 @@ std::optional<CaptionedFigure> hysteresis_figure(const validation::Validation& v
                           .x_title = "Position",
                           .x_quantity = units::Kind::length,
                           .panels = {std::move(panel)}},
-                         caption,
-                         {},
-                         {}};
+                         caption};
 }
 
 Mark distribution(const validation::ErrorProfile& profile, const std::string& estimator, double percent) {
@@ -82,9 +79,7 @@ CaptionedFigure distribution_figure(const validation::Validation& validation, do
            .x_highest = std::max(nearly_all, 0.1),
            .panels = {std::move(panel)}},
           validation.runs.size() > 1 ? "How the errors are distributed: all runs together, and thin each run by itself."
-                                     : "How the errors are distributed.",
-          {},
-          {}};
+                                     : "How the errors are distributed."};
 }
 
 }  // namespace

@@ -1,5 +1,3 @@
-#include "spoolflow/report/validation/dynamics_figures.hpp"
-
 #include <cmath>
 #include <numbers>
 
@@ -7,6 +5,7 @@
 
 #include "spoolflow/report/figures/figure.hpp"
 #include "spoolflow/report/text/number_text.hpp"
+#include "spoolflow/report/validation/validation_figures.hpp"
 
 namespace spoolflow::report {
 namespace {
@@ -38,9 +37,7 @@ CaptionedFigure step_figure(const validation::StepResponse& response, const std:
   return {{.description = "Step response, run " + run,
            .x_title = "Time from the middle of the measured step [ms]",
            .panels = {std::move(panel)}},
-          caption,
-          {},
-          {}};
+          caption};
 }
 
 CaptionedFigure frequency_figure(const validation::RunResult& run) {
@@ -68,9 +65,7 @@ CaptionedFigure frequency_figure(const validation::RunResult& run) {
   CaptionedFigure out{{.description = "Frequency response, run " + run.name,
                        .x_title = "Frequency [Hz]",
                        .panels = {std::move(gain), std::move(phase)}},
-                      caption,
-                      {},
-                      {}};
+                      caption};
   for (int decade = -3; decade <= 3; ++decade) {
     for (const int digit : {1, 2, 5}) {
       const double frequency_Hz = digit * std::pow(10, decade);

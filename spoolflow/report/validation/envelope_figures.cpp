@@ -1,8 +1,7 @@
-#include "spoolflow/report/validation/envelope_figures.hpp"
-
 #include <algorithm>
 
 #include "spoolflow/report/figures/figure.hpp"
+#include "spoolflow/report/validation/validation_figures.hpp"
 
 namespace spoolflow::report {
 namespace {
@@ -80,9 +79,7 @@ CaptionedFigure with_points(const Names& names, Panel panel, Sides sides) {
            .x_lowest = sides.axes.x_lowest,
            .x_highest = sides.axes.x_highest,
            .panels = {std::move(panel)}},
-          names.caption,
-          {},
-          {}};
+          names.caption};
 }
 
 /// `panel`: the axis.
@@ -203,9 +200,7 @@ std::optional<CaptionedFigure> temperature_figure(const model::Model& model,
                           .x_title = "Oil temperature",
                           .x_quantity = units::Kind::temperature,
                           .panels = {std::move(panel)}},
-                         "Oil temperatures of the calibration and of the runs.",
-                         {},
-                         {}};
+                         "Oil temperatures of the calibration and of the runs."};
 }
 
 }  // namespace

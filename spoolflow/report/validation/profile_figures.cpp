@@ -1,32 +1,25 @@
+#include <array>
 #include <string>
 
 #include <fmt/format.h>
 
-#include "spoolflow/report/validation/run_figures.hpp"
+#include "spoolflow/report/validation/validation_figures.hpp"
 
 namespace spoolflow::report {
 namespace {
 
-/// What stands below the errors.
+/// What stands below the errors, of each of `quantities`.
 struct Presentation {
   const char* name;
   const char* axis;
   units::Kind kind;
 };
 
-Presentation presentation(validation::Quantity quantity) {
-  switch (quantity) {
-    case validation::Quantity::flow:
-      return {"measured flow rate", "Measured flow rate", units::Kind::flow};
-    case validation::Quantity::position:
-      return {"position", "Position", units::Kind::length};
-    case validation::Quantity::pressure_difference:
-      return {"measured pressure difference", "Measured pressure difference", units::Kind::pressure};
-    case validation::Quantity::oil_temperature:
-      break;
-  }
-  return {"oil temperature", "Oil temperature", units::Kind::temperature};
-}
+constexpr std::array<Presentation, validation::quantities.size()> presentations{
+    {{"measured flow rate", "Measured flow rate", units::Kind::flow},
+     {"position", "Position", units::Kind::length},
+     {"measured pressure difference", "Measured pressure difference", units::Kind::pressure},
+     {"oil temperature", "Oil temperature", units::Kind::temperature}}};
 
 Mark profile_line(const std::vector<validation::ProfileBin>& bins, double percent, bool p95,
                   const std::string& estimator) {
@@ -65,7 +58,7 @@ Panel coverage_panel(const validation::Validation& validation, std::size_t quant
 std::vector<CaptionedFigure> profile_figures(const validation::Validation& validation, double full_scale_m3_per_s) {
   std::vector<CaptionedFigure> out;
   for (std::size_t q = 0; q < validation::quantities.size(); ++q) {
-    const Presentation as = presentation(validation::quantities[q]);
+    const Presentation& as = presentations[q];
     Panel panel{.title = "Error [% FS]", .height_px = 220, .lowest = 0.0};
     std::size_t most_bins = 0;
     for (const validation::PooledResult& pooled : validation.pooled) {

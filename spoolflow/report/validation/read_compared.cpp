@@ -34,9 +34,7 @@ ComparedEstimator estimator_at(const Json& json, const std::string& place, const
                         percent("largest"),
                         percent("bias"),
                         100 * at<double>(json, place + "/error/all/band_coverage", file),
-                        percent("band_mean_width"),
-                        {},
-                        {}};
+                        percent("band_mean_width")};
   const Json::json_pointer bins(place + "/error_over/pressure_difference_bar");
   for (std::size_t b = 0; json.contains(bins) && b < json.at(bins).size(); ++b) {
     const std::string bin = fmt::format("{}/{}", bins.to_string(), b);
@@ -63,11 +61,9 @@ ComparedValidation read_compared(const std::filesystem::path& metrics_file) {
         fmt::format("{}: is of version {}, this program reads version 1; validate that model again with this program",
                     metrics_file.string(), version));
   }
-  ComparedValidation out{at<std::string>(json, "/valve", metrics_file),
-                         metrics_file.filename().string(),
+  ComparedValidation out{at<std::string>(json, "/valve", metrics_file), metrics_file.filename().string(),
                          units::m3_per_s_from_L_per_min(at<double>(json, "/full_scale_L_min", metrics_file)),
-                         at<Json>(json, "/runs", metrics_file).size(),
-                         {}};
+                         at<Json>(json, "/runs", metrics_file).size()};
   const std::size_t estimators = at<Json>(json, "/all_runs", metrics_file).size();
   for (std::size_t e = 0; e < estimators; ++e) {
     const std::string place = fmt::format("/all_runs/{}", e);

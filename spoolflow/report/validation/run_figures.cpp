@@ -1,5 +1,3 @@
-#include "spoolflow/report/validation/run_figures.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +6,7 @@
 #include "spoolflow/report/figures/figure.hpp"
 #include "spoolflow/report/text/number_text.hpp"
 #include "spoolflow/report/validation/trace_json.hpp"
+#include "spoolflow/report/validation/validation_figures.hpp"
 
 namespace spoolflow::report {
 namespace {
@@ -71,8 +70,7 @@ Panel status_panel(const validation::EstimatorResult& result) {
   Panel panel{.title = fmt::format("Status of the {}", text(result.estimator)), .height_px = 0};
   for (const validation::StatusRow& status : result.status) {
     Row row{fmt::format("{} ({} %)", status.name, fixed(100 * status.share, status.share < 0.01 ? 2 : 0)),
-            status.fault ? "fault" : text(result.estimator),
-            {}};
+            status.fault ? "fault" : text(result.estimator)};
     for (const validation::StatusSpan& span : status.spans) row.spans.push_back({span.from_s, span.to_s, span.share});
     panel.rows.push_back(std::move(row));
   }
@@ -87,9 +85,7 @@ CaptionedFigure run_flow_figure(const validation::RunResult& run) {
            .x_quantity = units::Kind::time,
            .panels = {flow_panel(run)}},
           fmt::format("Run {}{}. Its own section below has plots that zoom, the error and the forces.", run.name,
-                      run.results.back().worst ? ", which has the largest error" : ""),
-          {},
-          {}};
+                      run.results.back().worst ? ", which has the largest error" : "")};
 }
 
 CaptionedFigure run_figure(const validation::RunResult& run, double full_scale_m3_per_s) {
@@ -146,9 +142,7 @@ CaptionedFigure force_figure(const validation::RunResult& run) {
        .panels = {std::move(panel)}},
       fmt::format("Forces as the {} sees them, stacked: the magnetic force carries spring, flow force and friction. "
                   "While the spool closes, friction helps and lies over the flow force.",
-                  text(leading.estimator)),
-      {},
-      {}};
+                  text(leading.estimator))};
 }
 
 CaptionedFigure worst_moment_figure(const validation::RunResult& run, double full_scale_m3_per_s) {
@@ -180,8 +174,7 @@ CaptionedFigure worst_moment_figure(const validation::RunResult& run, double ful
                  status.empty() ? "none" : status,
                  worst.moving && std::ranges::count(worst.status, "spool_at_rest") > 0
                      ? ", though it moved: the sensor took friction to hold it"
-                     : ""),
-          {}};
+                     : "")};
 }
 
 }  // namespace spoolflow::report

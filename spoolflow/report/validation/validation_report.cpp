@@ -6,33 +6,17 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/report/analysis/budget_section.hpp"
-#include "spoolflow/report/calibration/fits_section.hpp"
+#include "spoolflow/report/analysis/budget_sections.hpp"
 #include "spoolflow/report/calibration/model_sections.hpp"
-#include "spoolflow/report/calibration/residual_figures.hpp"
 #include "spoolflow/report/text/html_text.hpp"
 #include "spoolflow/report/text/number_text.hpp"
-#include "spoolflow/report/validation/direction_figures.hpp"
-#include "spoolflow/report/validation/dynamics_figures.hpp"
-#include "spoolflow/report/validation/envelope_figures.hpp"
 #include "spoolflow/report/validation/requirements_table.hpp"
 #include "spoolflow/report/validation/results_table.hpp"
-#include "spoolflow/report/validation/run_figures.hpp"
+#include "spoolflow/report/validation/validation_figures.hpp"
 #include "spoolflow/report/validation/verdict.hpp"
 
 namespace spoolflow::report {
 namespace {
-
-void show_texts(HtmlPage& page, std::span<const Text> texts) {
-  if (texts.empty()) return;
-  page.html("<ul class=\"limits\">");
-  for (const Text& text : texts) page.html("<li>" + html_text(text.in(page.units())) + "</li>");
-  page.html("</ul>\n");
-}
-
-void show_sentence(HtmlPage& page, const Verdict& verdict) {
-  page.html("<p class=\"verdict\">" + html_text(verdict.sentence.in(page.units())) + "</p>\n");
-}
 
 /// What the words of the verdict mean, where they first stand.
 void show_terms(HtmlPage& page, const validation::Validation& validation) {
@@ -188,12 +172,12 @@ void show_calibration(HtmlPage& page, const model::Model& model) {
 void show_opening(HtmlPage& page, const Verdict& said, const validation::Validation& validation, double full_scale) {
   const std::vector<validation::JudgedLimit> limits = shown_limits(validation, full_scale);
   const std::span<const Text> remarks(said.limits);
-  show_sentence(page, said);
+  page.verdict(said.sentence);
   show_requirements(page, validation, limits);
-  show_texts(page, remarks.first(std::min(said.doubts, remarks.size())));
+  page.remarks(remarks.first(std::min(said.doubts, remarks.size())));
   show_terms(page, validation);
   show_first_run(page, validation);
-  show_texts(page, remarks.subspan(std::min(said.doubts, remarks.size())));
+  page.remarks(remarks.subspan(std::min(said.doubts, remarks.size())));
   show_tiles(page, validation, 100 / full_scale);
   page.table(results_table(validation, full_scale));
   show_limits(page, limits);
@@ -242,8 +226,8 @@ void write_calibration_report(std::ostream& out, const model::Model& model, cons
   HtmlPage page("spoolflow calibration report", model.valve.name, origin_of(model), units);
   page.headline(headline_of(model));
   const Verdict said = calibration_verdict(model);
-  show_sentence(page, said);
-  show_texts(page, said.limits);
+  page.verdict(said.sentence);
+  page.remarks(said.limits);
   show_valve(page, model, {});
   if (model.whole()) {
     for (const char* direction : {"b", "a"}) {

@@ -5,9 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "spoolflow/report/figures/svg_figure.hpp"
-#include "spoolflow/report/validation/direction_figures.hpp"
-#include "spoolflow/report/validation/dynamics_figures.hpp"
-#include "spoolflow/report/validation/envelope_figures.hpp"
+#include "spoolflow/report/validation/validation_figures.hpp"
 #include "tests/report/markup.hpp"
 
 namespace spoolflow::report {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "spoolflow/report/json/metrics_json.hpp"
+#include "spoolflow/report/json/results_json.hpp"
 #include "spoolflow/report/validation/verdict.hpp"
 #include "tests/report/markup.hpp"
 

@@ -1,7 +1,10 @@
 #pragma once
-/// Tables and bars of uncertainty budgets.
+/// Uncertainty budgets: tables, bars and parts of a page.
 #include "spoolflow/analysis/analysis.hpp"
+#include "spoolflow/analysis/run_analysis.hpp"
+#include "spoolflow/model/model.hpp"
 #include "spoolflow/report/figures/bar_chart.hpp"
+#include "spoolflow/report/page/html_page.hpp"
 #include "spoolflow/report/page/html_table.hpp"
 
 namespace spoolflow::report {
@@ -17,5 +20,12 @@ namespace spoolflow::report {
 
 /// Mean shares of the variance over the points.
 [[nodiscard]] BarChart share_chart(const std::vector<analysis::GroupShare>& shares, estimation::Estimator estimator);
+
+/// The uncertainty budget in short, for pages about something else: what makes the uncertainty at three levels of
+/// pressure, with default figures for the instruments and without Monte Carlo.
+void budget_section(HtmlPage& page, const model::Model& model);
+
+/// The budget along a recording: intervals over time, what makes them, and how many samples lie where they should.
+void show_run_budget(HtmlPage& page, const analysis::RunAnalysis& run, double full_scale_m3_per_s);
 
 }  // namespace spoolflow::report
