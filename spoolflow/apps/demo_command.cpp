@@ -51,8 +51,8 @@ void demo(const DemoArguments& arguments) {
   for (const EmbeddedFile& file : demo_files()) {
     if (file.name.starts_with(from)) write_file(folder / file.name.substr(from.size()), {}, file.bytes);
   }
-  const Shown& valve = *std::find_if(shown_valves.begin(), shown_valves.end(),
-                                     [&](const Shown& each) { return each.valve == arguments.valve; });
+  const Shown& valve =
+      *std::ranges::find_if(shown_valves, [&](const Shown& each) { return each.valve == arguments.valve; });
   const std::vector<std::string> runs{in_folder(valve.ramps), in_folder("duty_cycle.csv")};
   campaign({.valve = in_folder("valve.toml"),
             .folder = in_folder("campaign"),

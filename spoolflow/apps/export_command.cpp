@@ -97,7 +97,7 @@ void export_folder(const ExportArguments& arguments) {
 /// A valve of the virtual rig rather than a model: a TOML file or the name of a preset.
 bool names_valve(const std::string& name) {
   const auto& presets = rig::valve_presets();
-  return name.ends_with(".toml") || std::find(presets.begin(), presets.end(), name) != presets.end();
+  return name.ends_with(".toml") || std::ranges::find(presets, name) != presets.end();
 }
 
 /// Of what is neither: a model is asked for, and a valve may be meant.

@@ -30,7 +30,7 @@ std::span<const FirmwareTarget> firmware_targets() {
 }
 
 std::optional<FirmwareTarget> firmware_target(std::string_view name) {
-  const auto found = std::find_if(targets.begin(), targets.end(), [name](const FirmwareTarget& each) {
+  const auto found = std::ranges::find_if(targets, [name](const FirmwareTarget& each) {
     return each.name == name || each.name.substr(prefix.size()) == name;
   });
   return found == targets.end() ? std::nullopt : std::optional(*found);

@@ -47,8 +47,7 @@ const std::array<KnownUnit, 15> known_units{{
 }};
 
 const KnownUnit& known_unit(std::string_view name) {
-  const auto unit =
-      std::find_if(known_units.begin(), known_units.end(), [&](const KnownUnit& each) { return each.name == name; });
+  const auto unit = std::ranges::find_if(known_units, [&](const KnownUnit& each) { return each.name == name; });
   if (unit == known_units.end()) throw std::logic_error("no definition of the unit " + std::string(name));
   return *unit;
 }
@@ -64,9 +63,9 @@ std::string unit_definitions(const std::vector<fmu::Variable>& variables) {
   for (const fmu::Variable& variable : variables) {
     if (variable.unit.empty()) continue;
     const KnownUnit& unit = known_unit(variable.unit);
-    if (!variable.display_unit.empty() &&
-        std::none_of(unit.display.begin(), unit.display.end(),
-                     [&](const DisplayUnit& each) { return each.name == variable.display_unit; })) {
+    if (!variable.display_unit.empty() && std::ranges::none_of(unit.display, [&](const DisplayUnit& each) {
+          return each.name == variable.display_unit;
+        })) {
       throw std::logic_error("no definition of the display unit " + variable.display_unit);
     }
     used.insert(unit.name);

@@ -9,7 +9,7 @@ namespace spoolflow::exports {
 
 std::vector<NumberGroup> NumberGroups::in_order(std::size_t count) const {
   std::vector<NumberGroup> groups = groups_;
-  std::sort(groups.begin(), groups.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::ranges::sort(groups, [](const auto& a, const auto& b) { return a.first < b.first; });
   std::size_t next = 0;
   for (const NumberGroup& group : groups) {
     if (group.first != next)

@@ -281,11 +281,11 @@ Isolation isolation_of(const DirectionReference& reference, const DirectionState
 }
 
 bool raised(const DirectionState& state) {
-  return std::any_of(state.chart.begin(), state.chart.end(), [](const Cusum& chart) { return chart.raised; });
+  return std::ranges::any_of(state.chart, [](const Cusum& chart) { return chart.raised; });
 }
 
 bool decided(const DirectionState& state, const Isolation& found) {
-  const double likeliest = *std::max_element(found.odds.begin(), found.odds.end());
+  const double likeliest = *std::ranges::max_element(found.odds);
   return raised(state) && (likeliest > least_reported_odds || found.unexplained_odds >= 1);
 }
 

@@ -200,8 +200,7 @@ std::vector<Cause> Monitor::causes() const {
     const std::size_t reported = likely ? best : static_cast<std::size_t>(Fault::wrong_model);
     odds[reported] = std::max(odds[reported], likely ? found.odds[best] : found.unexplained_odds);
   }
-  const bool resistive =
-      std::any_of(state_.side.begin(), state_.side.end(), [](const DirectionState& side) { return side.resistive; });
+  const bool resistive = std::ranges::any_of(state_.side, [](const DirectionState& side) { return side.resistive; });
   if (resistive || status_raised(state_.status, sensor::Status::coil_fault))
     odds[static_cast<std::size_t>(Fault::coil)] = most_odds;
   if (status_raised(state_.status, sensor::Status::temperature_fault))
@@ -212,7 +211,7 @@ std::vector<Cause> Monitor::causes() const {
   for (std::size_t f = 0; f < faults; ++f) {
     if (odds[f] > 0) out.push_back({static_cast<Fault>(f), odds[f]});
   }
-  std::stable_sort(out.begin(), out.end(), [](const Cause& a, const Cause& b) { return a.odds > b.odds; });
+  std::ranges::stable_sort(out, [](const Cause& a, const Cause& b) { return a.odds > b.odds; });
   return out;
 }
 

@@ -174,25 +174,15 @@ TomlTable table_of(const TomlTable& document, std::string_view key) {
 /// All but valve and instruments.
 void read_rest(const TomlTable& document, OutsideFiles outside, Campaign& campaign) {
   const toml::table& read = document.table;
-  const std::filesystem::path& file = document.file;
-  campaign.file = file;
+  campaign.file = document.file;
   if (read.contains("fluid")) campaign.fluid = fluid_of(table_of(document, "fluid"));
   if (read.contains("channels")) campaign.channels = read_channels(table_of(document, "channels"));
   if (read.contains("load")) campaign.load = load_of(table_of(document, "load"));
   if (read.contains("environment")) campaign.environment = environment_of(document, "bench");
   if (read.contains("tolerances")) campaign.tolerances = tolerances_of(table_of(document, "tolerances"));
-  const toml::array* recordings = read["recording"].as_array();
-  if (recordings == nullptr || recordings->empty()) {
-    throw RecordingError(fmt::format("{}: names no recordings; add [[recording]] tables with protocol and file",
-                                     document.place("recording")));
-  }
-  for (const toml::node& node : *recordings) {
-    const toml::table* table = node.as_table();
-    if (table == nullptr) {
-      throw RecordingError(fmt::format("{}: write each recording as a table [[recording]]", place_of(node, file)));
-    }
-    campaign.recordings.push_back(recording_of({*table, file, "[[recording]]"}, campaign.valve, outside));
-  }
+  for (const TomlTable& entry :
+       document.tables("recording", "names no recordings; add [[recording]] tables with protocol and file"))
+    campaign.recordings.push_back(recording_of(entry, campaign.valve, outside));
   require_whole_paths(campaign);
 }
 

@@ -121,8 +121,7 @@ class Binder {
 
   /// Index of the only column of that name.
   std::size_t column_named(Channel channel, const std::string& wanted) const {
-    const auto same = [&wanted](const FileColumn& column) { return column.name == wanted; };
-    const auto first = std::find_if(columns_.begin(), columns_.end(), same);
+    const auto first = std::ranges::find(columns_, wanted, &FileColumn::name);
     const auto numbered = std::ranges::find(columns_, wanted + " #1", &FileColumn::name);
     if (first == columns_.end() && numbered != columns_.end()) {
       throw RecordingError(
@@ -188,8 +187,8 @@ class Binder {
   }
 
   bool named_by_map(const FileColumn& column) const {
-    return std::any_of(options_.channels.sources.begin(), options_.channels.sources.end(),
-                       [&column](const auto& entry) { return entry.second.column == column.name; });
+    return std::ranges::any_of(options_.channels.sources,
+                               [&column](const auto& entry) { return entry.second.column == column.name; });
   }
 
   std::optional<BoundColumn> by_header(Channel channel) const {
@@ -251,8 +250,7 @@ std::vector<BoundColumn> bind_channels(const SampleTable& table, const ReadOptio
   const Binder binder(table, options, file);
   std::vector<BoundColumn> bound;
   const auto add = [&](Channel channel, bool required) {
-    const auto same = [channel](const BoundColumn& column) { return column.channel == channel; };
-    if (channel == Channel::time || std::any_of(bound.begin(), bound.end(), same)) return;
+    if (channel == Channel::time || std::ranges::count(bound, channel, &BoundColumn::channel) > 0) return;
     if (auto column = binder.bind(channel)) {
       bound.push_back(std::move(*column));
     } else if (required) {

@@ -46,7 +46,7 @@ ChannelMap read_channels(const TomlTable& channels) {
                                        did_you_mean(key.str(), channel_names()), listed(channel_names())));
     }
     if (const auto column = node.value_exact<std::string>()) {  // current = "I_sol", with the file's own unit
-      map.sources.emplace(*channel, ChannelSource{*column, "", 1.0, 0.0, std::nullopt});
+      map.sources.emplace(*channel, ChannelSource{*column, ""});
       continue;
     }
     const toml::table* fields = node.as_table();

@@ -17,7 +17,7 @@ struct ChannelSource {
   std::string unit;    ///< unit of the raw value, such as "mA"; empty: taken from the file
   double scale = 1.0;
   double offset = 0.0;
-  std::optional<std::string> to;  ///< unit of the scaled value where it is another quantity, such as V to mm
+  std::optional<std::string> to = {};  ///< unit of the scaled value where it is another quantity, such as V to mm
 };
 
 struct ChannelMap {

@@ -77,7 +77,7 @@ bool propose_leading_time(ChannelMap& proposal, const SampleTable& table, const 
   if (clock->time == named) return false;
   proposal.sources.erase(Channel::time);
   const FileColumn& column = table.columns()[*clock->time];
-  proposal.sources.emplace(Channel::time, ChannelSource{column.name, unit_of_time(column), 1.0, 0.0, std::nullopt});
+  proposal.sources.emplace(Channel::time, ChannelSource{column.name, unit_of_time(column)});
   return false;
 }
 

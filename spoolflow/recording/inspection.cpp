@@ -209,7 +209,7 @@ void look_at_columns(Inspection& out, const Proposal& proposal, std::vector<Surv
     const SurveyedColumn& column = columns[guess.column];
     const auto unit = units::unit_named(column.unit);
     const bool fits = unit && (unit->dimension == dimension(channel) || unit->dimension == units::Dimension::voltage);
-    out.proposal.sources.try_emplace(channel, ChannelSource{column.name, fits ? column.unit : "", 1.0, 0.0, {}});
+    out.proposal.sources.try_emplace(channel, ChannelSource{column.name, fits ? column.unit : ""});
     known.emplace(channel, guess.column);
   }
   std::map<Channel, std::string> reasons;

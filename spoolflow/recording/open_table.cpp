@@ -59,7 +59,7 @@ bool takes_a_process(const std::filesystem::path& file) {
 }
 
 std::unique_ptr<ForkServer> fork_server_for(const std::vector<std::filesystem::path>& files) {
-  if (std::none_of(files.begin(), files.end(), takes_a_process)) return nullptr;
+  if (std::ranges::none_of(files, takes_a_process)) return nullptr;
   return std::make_unique<ForkServer>();
 }
 

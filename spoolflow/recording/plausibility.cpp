@@ -117,8 +117,7 @@ void Plausibility::take(std::size_t column, std::span<const double> values,
   std::size_t beyond = 0;
   for (const double value : values) beyond += value < lowest || value > highest ? 1 : 0;
   if (100 * beyond > values.size() && (beyond > 1 || values.size() < 20)) {
-    const auto first =
-        std::find_if(values.begin(), values.end(), [=](double value) { return value < lowest || value > highest; });
+    const auto first = std::ranges::find_if(values, [=](double value) { return value < lowest || value > highest; });
     const units::Unit& unit = watched.column->unit;
     // What a unit that is too small makes of its first value beyond fits many others, its largest one few.
     const double worst =

@@ -240,7 +240,7 @@ void propose_by_words(Proposal& out, const FileContents& contents, const std::ve
                           (channel == Channel::voltage && known(Channel::voltage_a));
     if (channel == Channel::time || known(channel) || of_coils || columns.size() != 1) continue;
     const auto& [column, word] = columns.front();
-    out.map.sources.emplace(channel, ChannelSource{contents.columns[column].name, names[column].unit, 1.0, 0.0, {}});
+    out.map.sources.emplace(channel, ChannelSource{contents.columns[column].name, names[column].unit});
     out.by_word.emplace(channel, word);
   }
 }
@@ -264,7 +264,7 @@ Proposal propose_channels(const FileContents& contents, const std::vector<bool>&
   const auto holds_none = [&](std::size_t column) { return column < numberless.size() && numberless[column]; };
   std::set<Channel> found;  // in this pass; what one before it has found is not in question
   const auto propose = [&](Channel channel, const std::string& column, const std::string& unit) {
-    if (out.map.sources.try_emplace(channel, ChannelSource{column, unit, 1.0, 0.0, {}}).second) {
+    if (out.map.sources.try_emplace(channel, ChannelSource{column, unit}).second) {
       found.insert(channel);
     } else if (found.contains(channel)) {
       out.as_well[channel].push_back(column);

@@ -48,7 +48,7 @@ class ChannelReader final : public Reader {
     }
     std::vector<std::size_t> chosen;
     for (const BoundColumn& column : bound_) {
-      const auto same = std::find(chosen.begin(), chosen.end(), column.column);
+      const auto same = std::ranges::find(chosen, column.column);
       source_of_.push_back(static_cast<std::size_t>(same - chosen.begin()));
       if (same == chosen.end()) chosen.push_back(column.column);
     }
@@ -57,8 +57,7 @@ class ChannelReader final : public Reader {
   }
 
   [[nodiscard]] bool has(Channel channel) const override {
-    return std::any_of(bound_.begin(), bound_.end(),
-                       [channel](const BoundColumn& column) { return column.channel == channel; });
+    return std::ranges::count(bound_, channel, &BoundColumn::channel) > 0;
   }
 
   bool next(SampleBlock& block) override {
@@ -151,9 +150,7 @@ class ChannelReader final : public Reader {
   }
 
   [[noreturn]] void refuse_time(std::size_t row, double time_s) const {
-    const BoundColumn& column = *std::find_if(bound_.begin(), bound_.end(),
-                                              [](const BoundColumn& one) { return one.channel == Channel::time; });
-    const std::string place = fmt::format("{}, column '{}'", table_->place(row), column.name);
+    const std::string place = fmt::format("{}, column '{}'", table_->place(row), bound_.front().name);  // time
     if (std::isnan(time_s)) {
       throw RecordingError(fmt::format("{}: the time stamp is missing; every sample needs one", place));
     }

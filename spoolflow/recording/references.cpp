@@ -205,21 +205,11 @@ std::vector<Reference> read_references(const std::filesystem::path& file) {
   const toml::table read = read_toml(file);
   const TomlTable document{read, file, "the references"};
   document.allow_only({"reference"});
-  const toml::array* entries = read["reference"].as_array();
-  if (entries == nullptr || entries->empty()) {
-    throw RecordingError(
-        fmt::format("{}: names no references; add tables [[reference]] with kind = \"stroke\", "
-                    "\"pump\", \"meter\" or \"closed\"",
-                    document.place("reference")));
-  }
   std::vector<Reference> out;
-  for (const toml::node& node : *entries) {
-    const toml::table* table = node.as_table();
-    if (table == nullptr) {
-      throw RecordingError(fmt::format("{}: write each reference as a table [[reference]]", place_of(node, file)));
-    }
-    out.push_back(reference_of({*table, file, "[[reference]]"}, out.size() + 1));
-  }
+  for (const TomlTable& entry : document.tables("reference",
+                                                "names no references; add tables [[reference]] with kind = \"stroke\", "
+                                                "\"pump\", \"meter\" or \"closed\""))
+    out.push_back(reference_of(entry, out.size() + 1));
   return out;
 }
 

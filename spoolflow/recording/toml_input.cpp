@@ -85,7 +85,7 @@ std::string place_of(const toml::node& node, const std::filesystem::path& file) 
 
 void TomlTable::allow_only(const std::vector<std::string>& allowed) const {
   for (const auto& [key, node] : table) {
-    if (std::find(allowed.begin(), allowed.end(), key.str()) != allowed.end()) continue;
+    if (std::ranges::find(allowed, key.str()) != allowed.end()) continue;
     throw RecordingError(fmt::format("{}: unknown key '{}' in {}{}; allowed: {}", place_of(node, file), key.str(), name,
                                      did_you_mean(key.str(), allowed), listed(allowed)));
   }
@@ -137,6 +137,19 @@ std::optional<std::vector<std::string>> TomlTable::list_of_texts(std::string_vie
     auto value = each.value_exact<std::string>();
     if (!value) return std::nullopt;
     out.push_back(std::move(*value));
+  }
+  return out;
+}
+
+std::vector<TomlTable> TomlTable::tables(std::string_view key, std::string_view to_do) const {
+  const toml::array* const list = table[key].as_array();
+  if (list == nullptr || list->empty()) throw RecordingError(fmt::format("{}: {}", place(key), to_do));
+  std::vector<TomlTable> out;
+  for (const toml::node& node : *list) {
+    const toml::table* const each = node.as_table();
+    if (each == nullptr)
+      throw RecordingError(fmt::format("{}: write each {} as a table [[{}]]", place_of(node, file), key, key));
+    out.push_back({*each, file, fmt::format("[[{}]]", key)});
   }
   return out;
 }

@@ -52,6 +52,8 @@ struct TomlTable {
                                                            std::span<const std::string_view> names) const;
   /// Nothing where the key is missing, or its value is no list of texts alone.
   [[nodiscard]] std::optional<std::vector<std::string>> list_of_texts(std::string_view key) const;
+  /// Of tables [[key]]. Throws RecordingError where there are none, with what to do, and where one is no table.
+  [[nodiscard]] std::vector<TomlTable> tables(std::string_view key, std::string_view to_do) const;
   [[nodiscard]] double number(std::string_view key) const;
   [[nodiscard]] std::optional<double> optional_number(std::string_view key) const;
   /// As number(), and above zero.

@@ -93,7 +93,7 @@ void draw(EstimatorResult& out, const RunSamples& run, const Answers& answers) {
   out.flow_force_N = line(answers.flow_force_N);
   out.friction_force_N = line(answers.friction_force_N);
   out.status = status_rows(run.time_s, answers.status, status_stretches);
-  const auto faulty = std::count_if(answers.status.begin(), answers.status.end(), [](sensor::Status status) {
+  const auto faulty = std::ranges::count_if(answers.status, [](sensor::Status status) {
     return (static_cast<std::uint32_t>(status) & sensor::fault_bits) != 0;
   });
   if (!answers.status.empty()) {

@@ -53,7 +53,7 @@ ErrorFigures error_figures_of_runs(const std::vector<std::vector<float>>& runs) 
   if (counted == 0) return out;
   out.bias /= counted;
   out.rms = std::sqrt(out.rms / counted);
-  std::sort(weighed.begin(), weighed.end());
+  std::ranges::sort(weighed);
   double below = 0;
   for (const auto& [magnitude, weight] : weighed) {
     out.p95 = magnitude;

@@ -91,22 +91,14 @@ Limit read_limit(const TomlTable& table) {
 
 Requirements read_requirements(const std::filesystem::path& file) {
   const toml::table document = recording::read_toml(file);
-  TomlTable{document, file, "the file"}.allow_only({"limit"});
+  const TomlTable whole{document, file, "the file"};
+  whole.allow_only({"limit"});
   Requirements out{file.filename().string(), {}};
-  const toml::array* limits = document["limit"].as_array();
-  if (limits == nullptr || limits->empty()) {
-    throw RecordingError(
-        fmt::format("{}: holds no limit; write [[limit]] with figure = \"p95\" and at_most = 5, and so "
-                    "on (docs/formats/requirements.md)",
-                    file.string()));
-  }
-  for (const toml::node& node : *limits) {
-    const toml::table* table = node.as_table();
-    if (table == nullptr) {
-      throw RecordingError(fmt::format("{}: a limit is a table; write [[limit]] with its keys below it",
-                                       recording::place_of(node, file)));
-    }
-    out.limits.push_back(read_limit({*table, file, fmt::format("limit {}", out.limits.size() + 1)}));
+  for (TomlTable& entry : whole.tables("limit",
+                                       "holds no limit; write [[limit]] with figure = \"p95\" and at_most = 5, "
+                                       "and so on (docs/formats/requirements.md)")) {
+    entry.name = fmt::format("limit {}", out.limits.size() + 1);
+    out.limits.push_back(read_limit(entry));
   }
   return out;
 }
@@ -116,12 +108,12 @@ void check_names(const Requirements& requirements, const std::vector<std::string
   for (const Limit& limit : requirements.limits) {
     std::vector<std::string> allowed{"all", "each"};
     allowed.insert(allowed.end(), runs.begin(), runs.end());
-    if (std::find(allowed.begin(), allowed.end(), limit.run) == allowed.end()) {
+    if (std::ranges::find(allowed, limit.run) == allowed.end()) {
       throw RecordingError(fmt::format("{}: run = \"{}\" is none of the recordings{}; allowed: {}", limit.place,
                                        limit.run, recording::did_you_mean(limit.run, allowed),
                                        recording::listed(allowed)));
     }
-    if (limit.estimator && std::find(estimators.begin(), estimators.end(), *limit.estimator) == estimators.end()) {
+    if (limit.estimator && std::ranges::find(estimators, *limit.estimator) == estimators.end()) {
       throw RecordingError(
           fmt::format("{}: estimator = \"{}\" is not run here; choose it with --estimator, or leave the "
                       "limit's estimator out",

@@ -89,13 +89,13 @@ std::vector<StatusRow> status_rows(std::span<const double> time_s, std::span<con
   for (unsigned place = 0; place < sensor::status_names.size(); ++place) {
     const sensor::StatusName& entry = sensor::status_names[place];
     const auto having =
-        std::count_if(status.begin(), status.end(), [&](sensor::Status each) { return sensor::has(each, entry.bit); });
+        std::ranges::count_if(status, [&](sensor::Status each) { return sensor::has(each, entry.bit); });
     if (having == 0) continue;
     out.push_back({entry.name, meaning(entry.bit), (static_cast<std::uint32_t>(entry.bit) & sensor::fault_bits) != 0,
                    static_cast<double>(having) / static_cast<double>(time_s.size()),
                    spans_of(time_s, status, entry.bit, stretch_s), place});
   }
-  std::stable_sort(out.begin(), out.end(), [](const StatusRow& a, const StatusRow& b) { return a.share > b.share; });
+  std::ranges::stable_sort(out, [](const StatusRow& a, const StatusRow& b) { return a.share > b.share; });
   return out;
 }
 

@@ -40,8 +40,8 @@ RunName name_of(const model::Model& model, const std::filesystem::path& recordin
   std::error_code error;
   if (!std::filesystem::is_regular_file(recording, error)) return result;
   result.sha256 = model::sha256_of_file(recording);
-  result.calibrated_with = std::any_of(model.provenance.inputs.begin(), model.provenance.inputs.end(),
-                                       [&](const model::InputFile& input) { return input.sha256 == result.sha256; });
+  result.calibrated_with = std::ranges::any_of(
+      model.provenance.inputs, [&](const model::InputFile& input) { return input.sha256 == result.sha256; });
   return result;
 }
 

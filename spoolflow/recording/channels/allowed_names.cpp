@@ -11,7 +11,7 @@ namespace spoolflow::recording {
 std::string did_you_mean(std::string_view written, const std::vector<std::string>& allowed) {
   constexpr std::size_t longest_name = 200;  // beyond, it is no misspelt name
   if (written.empty() || written == "?" || written.size() > longest_name || allowed.empty()) return {};
-  const auto longer = std::find_if(allowed.begin(), allowed.end(), [written](const std::string& name) {
+  const auto longer = std::ranges::find_if(allowed, [written](const std::string& name) {
     return written.size() >= 4 && name.starts_with(written);  // often a unit left out
   });
   if (longer != allowed.end()) return fmt::format("; did you mean '{}'?", *longer);

@@ -81,7 +81,7 @@ void keep_only(std::array<int, 2> descriptors) {
   const int nothing = ::open("/dev/null", O_RDWR);
   for (const int standard : {STDIN_FILENO, STDOUT_FILENO}) (void)::dup2(nothing, standard);
   if (silent) (void)::dup2(nothing, STDERR_FILENO);
-  std::sort(descriptors.begin(), descriptors.end());
+  std::ranges::sort(descriptors);
   unsigned next = STDERR_FILENO + 1;
   for (const int kept : descriptors) {
     if (kept <= STDERR_FILENO) continue;

@@ -80,7 +80,7 @@ Mdf4Block read_block(const FileBytes& file, std::uint64_t at, std::string_view i
 std::string read_text(const FileBytes& file, std::uint64_t at) {
   if (at == 0) return {};
   const Mdf4Block block = read_block(file, at, "");
-  std::string text(block.data.begin(), std::find(block.data.begin(), block.data.end(), std::uint8_t{0}));
+  std::string text(block.data.begin(), std::ranges::find(block.data, std::uint8_t{0}));
   if (block.head.id == "##MD") text = element_text(text);
   if (block.head.id != "##MD" && block.head.id != "##TX") refuse_mdf4(block.what, "it should be a text");
   while (!text.empty() && text.back() == ' ') text.pop_back();

@@ -31,7 +31,7 @@ constexpr std::size_t sampled_lines = 20;
 std::vector<std::string_view> header_names(std::string_view header, const CsvDialect& dialect,
                                            const std::string& file) {
   std::vector<std::string_view> names = cells_of(uncommented(header), dialect.delimiter);
-  if (std::all_of(names.begin(), names.end(), is_number)) {
+  if (std::ranges::all_of(names, is_number)) {
     throw RecordingError(
         fmt::format("{}, line {}: has no header, its first line is numbers; insert a first line that "
                     "names the columns, such as time_s,current_A,position_mm",

@@ -42,7 +42,7 @@ TableFormat table_format_of(const std::filesystem::path& file) {
   const std::string extension = file.extension().string();
   const std::string_view name = extension.empty() ? std::string_view() : std::string_view(extension).substr(1);
   if (const auto format = table_format(name)) return *format;
-  if (std::find(promises.begin(), promises.end(), small_letters(name)) == promises.end()) return TableFormat::csv;
+  if (std::ranges::find(promises, small_letters(name)) == promises.end()) return TableFormat::csv;
   throw std::invalid_argument(
       fmt::format("cannot write {}: {} is no format that is written here; name a file that ends in .csv, .parquet, "
                   ".h5 or .mat",

@@ -116,9 +116,8 @@ CaptionedChart study_figure(const analysis::Study& study, std::size_t output) {
   const analysis::StudyOutput& about = analysis::study_output_list()[output];
   std::vector<std::size_t> order(found.factors.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return found.factors[a].total.value > found.factors[b].total.value;
-  });
+  std::ranges::stable_sort(
+      order, [&](std::size_t a, std::size_t b) { return found.factors[a].total.value > found.factors[b].total.value; });
   const std::string error = about.p95 ? "95th percentile of the error" : "RMS error";
   BarChart chart{.description = fmt::format("Sobol indices of the {}'s {}", sensor_name(about.estimator), error),
                  .axis = "Share of the variance from one valve to the next",

@@ -14,8 +14,8 @@ namespace {
 using analysis::GroupShare;
 
 const GroupShare* largest(const std::vector<GroupShare>& shares, bool part_of_model) {
-  const auto found = std::find_if(shares.begin(), shares.end(),
-                                  [&](const GroupShare& group) { return group.part_of_model == part_of_model; });
+  const auto found =
+      std::ranges::find_if(shares, [&](const GroupShare& group) { return group.part_of_model == part_of_model; });
   return found == shares.end() ? nullptr : &*found;
 }
 
@@ -103,8 +103,8 @@ AnalysisVerdict analysis_verdict(const model::Model& model, const analysis::Anal
   out.remarks.push_back(fmt::format("Half the stated 95 % interval of the {} at the working points: {}.",
                                     sensor_name(estimator), range_of_expanded(model, analysis, estimator)));
   for (const estimation::Estimator each : {estimation::Estimator::condensed, estimation::Estimator::observer}) {
-    const bool there = std::any_of(analysis.points.begin(), analysis.points.end(),
-                                   [&](const auto& point) { return point.estimator == each && point.reachable; });
+    const bool there = std::ranges::any_of(
+        analysis.points, [&](const auto& point) { return point.estimator == each && point.reachable; });
     if (there) out.remarks.push_back(agreement(analysis, each));
   }
   return out;

@@ -67,8 +67,7 @@ HtmlTable budget_table(const uncertainty::Budget& budget) {
 }
 
 HtmlTable points_table(const std::vector<analysis::PointResult>& points, double full_scale_m3_per_s) {
-  const bool any_tried =
-      std::any_of(points.begin(), points.end(), [](const auto& point) { return point.check.figures.trials > 0; });
+  const bool any_tried = std::ranges::any_of(points, [](const auto& point) { return point.check.figures.trials > 0; });
   std::vector<HtmlTable::Column> columns{{"estimator", Set::text},
                                          {"position", Set::number, Kind::length},
                                          {"pressure<br>difference", Set::number, Kind::pressure},
@@ -115,7 +114,7 @@ HtmlTable points_table(const std::vector<analysis::PointResult>& points, double 
 
 BarChart contribution_chart(const analysis::PointResult& result) {
   std::vector<uncertainty::BudgetLine> lines = result.budget.lines;
-  std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) {
+  std::ranges::stable_sort(lines, [](const auto& a, const auto& b) {
     return std::abs(a.contribution_m3_per_s) > std::abs(b.contribution_m3_per_s);
   });
   BarChart chart{

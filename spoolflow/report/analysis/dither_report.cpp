@@ -27,7 +27,7 @@ constexpr HeatScale ripple_heat({0, 0.05, 0.1, 0.2, 0.35, 0.5, 1, 2});  // % FS
 std::vector<std::size_t> shown_frequencies(const DitherStudy& study) {
   const std::size_t count = study.frequency_Hz.size();
   std::vector<std::size_t> out{0, count / 3, 2 * count / 3, count - 1, study.recommended % count};
-  std::sort(out.begin(), out.end());
+  std::ranges::sort(out);
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }

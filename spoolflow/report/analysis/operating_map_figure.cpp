@@ -93,14 +93,14 @@ std::vector<std::string_view> groups_of(const OperatingMap& map) {
   for (const MapCell& cell : map.cells) {
     if (!cell.reachable) continue;
     const std::string_view group = uncertainty::about(cell.dominant).group;
-    const auto found = std::find_if(counts.begin(), counts.end(), [&](const auto& c) { return c.first == group; });
+    const auto found = std::ranges::find_if(counts, [&](const auto& c) { return c.first == group; });
     if (found == counts.end()) {
       counts.emplace_back(group, 1);
     } else {
       ++found->second;
     }
   }
-  std::stable_sort(counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::ranges::stable_sort(counts, [](const auto& a, const auto& b) { return a.second > b.second; });
   std::vector<std::string_view> out;
   for (const auto& [group, count] : counts) out.push_back(group);
   return out;
@@ -114,7 +114,7 @@ std::string operating_map_figures(const OperatingMap& map, double full_scale_m3_
   const std::vector<std::string_view> groups = groups_of(map);
   const auto tone_of = [&](const MapCell& cell) {
     const std::string_view group = uncertainty::about(cell.dominant).group;
-    const auto place = static_cast<std::size_t>(std::find(groups.begin(), groups.end(), group) - groups.begin());
+    const auto place = static_cast<std::size_t>(std::ranges::find(groups, group) - groups.begin());
     return fmt::format("style=\"fill:var(--{})\"", tones[std::min(place, tones.size() - 1)]);
   };
   const std::string heat = drawn(

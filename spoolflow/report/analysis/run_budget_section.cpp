@@ -64,7 +64,7 @@ CaptionedFigure course(const RunResult& result) {
                         .y = of_trials});
   // Peaks of single instants would squeeze everything else.
   std::vector<double> sorted = expanded;
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   constexpr double least_m3_per_s = 1e-6 / units::litre_per_minute_per_m3_per_s;
   size.highest =
       std::max(least_m3_per_s, 2.5 * sorted[static_cast<std::size_t>(0.98 * static_cast<double>(sorted.size() - 1))]);
@@ -78,9 +78,8 @@ CaptionedFigure course(const RunResult& result) {
 
 BarChart parts(const RunResult& result) {
   std::vector<analysis::RunLine> lines = result.lines;
-  std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) {
-    return a.rms_contribution_m3_per_s > b.rms_contribution_m3_per_s;
-  });
+  std::ranges::stable_sort(
+      lines, [](const auto& a, const auto& b) { return a.rms_contribution_m3_per_s > b.rms_contribution_m3_per_s; });
   BarChart chart{
       .description = fmt::format("Contributions of the inputs along the run, {}", estimation::name(result.estimator)),
       .axis = "Contribution, root mean square over the run",

@@ -155,7 +155,7 @@ CaptionedFigure hysteresis_figure(const model::Evidence& evidence) {
   double widest_at_A = 0;
   for (std::size_t k = loops.size(); k-- > 0;) {
     std::vector<double> width = half_width(loops[k]->opening_N, loops[k]->closing_N);
-    const double highest = width.empty() ? 0 : *std::max_element(width.begin(), width.end());
+    const double highest = width.empty() ? 0 : *std::ranges::max_element(width);
     if (highest > widest) widest = highest, widest_at_A = loops[k]->current_A;
     add(panel, k, loops.size(),
         {.end_label = fixed(units::current(loops[k]->current_A), 1),

@@ -24,7 +24,7 @@ SummaryLine line(std::string of, double value, std::string unit, double lowest, 
 
 template <class Values>
 double largest_of(const Values& values) {
-  return *std::max_element(values.begin(), values.end());
+  return *std::ranges::max_element(values);
 }
 
 /// What residuals of this unit are measured by: the valve's own largest force or flow.

@@ -39,8 +39,8 @@ std::vector<Pair> close_pairs(const model::Fit& fit) {
       if (std::abs(correlation) >= close) out.push_back({a, b, correlation});
     }
   }
-  std::sort(out.begin(), out.end(),
-            [](const Pair& x, const Pair& y) { return std::abs(x.correlation) > std::abs(y.correlation); });
+  std::ranges::sort(out,
+                    [](const Pair& x, const Pair& y) { return std::abs(x.correlation) > std::abs(y.correlation); });
   return out;
 }
 

@@ -69,7 +69,7 @@ CaptionedFigure sensitivity_figure(const model::Model& model, const std::vector<
     panel.highest = map.pressure_difference_Pa.back();
     Mark dots = operating_dots(runs);
     if (!dots.x.empty()) {
-      panel.highest = std::max(*panel.highest, *std::max_element(dots.y.begin(), dots.y.end()));
+      panel.highest = std::max(*panel.highest, *std::ranges::max_element(dots.y));
       out.legend.insert(
           out.legend.rfind("</div>"),
           R"(<span><svg viewBox="0 0 16 12" aria-hidden="true"><path class="dots ink" stroke-width="3" d="M8 6h0"/></svg>where the runs worked</span>)");

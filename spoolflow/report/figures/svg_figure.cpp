@@ -126,7 +126,7 @@ std::string legend_of(const Figure& figure, const ReaderUnits& units) {
   for (const Panel& panel : figure.panels) {
     for (const Mark& mark : panel.marks) {
       const std::string name = mark.name.in(units);
-      if (name.empty() || std::find(names.begin(), names.end(), name) != names.end()) continue;
+      if (name.empty() || std::ranges::find(names, name) != names.end()) continue;
       names.push_back(name);
       out += fmt::format(R"(<span><svg class="key" viewBox="0 0 26 12" aria-hidden="true">{}</svg>{}</span>)",
                          key_of(mark), html_text(name));

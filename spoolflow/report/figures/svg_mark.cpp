@@ -103,7 +103,7 @@ void draw_end_labels(std::string& out, const std::vector<Mark>& marks, const Plo
   for (const Mark& mark : marks) {
     if (mark.end_label.empty() || mark.x.empty()) continue;
     const Place place{frame.x_px(mark.x.back()) + 5, frame.y_px(mark.y.back()) + 4};
-    const bool free = std::none_of(taken.begin(), taken.end(), [&](const Place& other) {
+    const bool free = std::ranges::none_of(taken, [&](const Place& other) {
       return std::abs(other.y - place.y) < line_px && std::abs(other.x - place.x) < label_px;
     });
     if (!free) continue;

@@ -230,7 +230,7 @@ Json requirements(const validation::Validation& validation) {
                       {"value", number(judged.value)},
                       {"met", judged.met}});
   }
-  const bool all = std::all_of(validation.limits.begin(), validation.limits.end(), [](auto& each) { return each.met; });
+  const bool all = std::ranges::all_of(validation.limits, [](auto& each) { return each.met; });
   return {{"file", validation.requirements_file}, {"met", all}, {"limits", std::move(limits)}};
 }
 

@@ -16,8 +16,7 @@ namespace {
 
 std::string_view bytes_of(std::string_view name) {
   const auto files = page_files();
-  const auto found =
-      std::find_if(files.begin(), files.end(), [&](const EmbeddedFile& file) { return file.name == name; });
+  const auto found = std::ranges::find_if(files, [&](const EmbeddedFile& file) { return file.name == name; });
   if (found == files.end()) throw std::logic_error("the program was built without " + std::string(name));
   return found->bytes;
 }

@@ -45,8 +45,7 @@ Sides sides_of(const Used& used, const Boxes& calibrated) {
     out.axes.y_highest = std::max(out.axes.y_highest, box.y_highest);
   }
   for (std::size_t k = 0; k < used.x.size(); ++k) {
-    const bool held =
-        std::any_of(calibrated.begin(), calibrated.end(), [&](auto& box) { return box.holds(used.x[k], used.y[k]); });
+    const bool held = std::ranges::any_of(calibrated, [&](auto& box) { return box.holds(used.x[k], used.y[k]); });
     Used& side = held ? out.inside : out.outside;
     side.x.push_back(used.x[k]);
     side.y.push_back(used.y[k]);
@@ -116,9 +115,8 @@ Used used_by(const std::vector<validation::RunResult>& runs, std::vector<Point> 
 /// The level with the highest pressure difference; null where none was recorded.
 const model::AxialForceLoop* highest_level(const model::Evidence& evidence) {
   const auto& loops = evidence.axial_force;
-  const auto highest = std::max_element(loops.begin(), loops.end(), [](auto& a, auto& b) {
-    return a.pressure_difference_set_Pa < b.pressure_difference_set_Pa;
-  });
+  const auto highest = std::ranges::max_element(
+      loops, [](auto& a, auto& b) { return a.pressure_difference_set_Pa < b.pressure_difference_set_Pa; });
   return highest == loops.end() || highest->position_m.empty() ? nullptr : &*highest;
 }
 
@@ -130,12 +128,12 @@ CaptionedFigure flow_figure(const model::Model& model, const Used& used) {
   above.x = highest.position_m;
   above.y = highest.flow_m3_per_s;
   Mark below{Shape::area, "fault", {}, "", "", 0, {}, {}, {}};
-  Boxes calibrated{{above.x.front(), above.x.back(), 0, *std::max_element(above.y.begin(), above.y.end())}};
+  Boxes calibrated{{above.x.front(), above.x.back(), 0, *std::ranges::max_element(above.y)}};
   if (p_to_a != nullptr) {
     below.x = scaled(p_to_a->position_m, -1);
     below.y_upper = scaled(p_to_a->flow_m3_per_s, -1);
-    calibrated.insert(calibrated.begin(), {below.x.back(), below.x.front(),
-                                           *std::min_element(below.y_upper.begin(), below.y_upper.end()), 0});
+    calibrated.insert(calibrated.begin(),
+                      {below.x.back(), below.x.front(), *std::ranges::min_element(below.y_upper), 0});
   }
   Sides sides = sides_of(used, calibrated);
   sides.inside = used;

@@ -72,8 +72,8 @@ Text bounds_text(const validation::Limit& limit) {
 
 std::string requirements_sentence(const validation::Validation& validation) {
   const auto all = validation.limits.size();
-  const auto met = static_cast<std::size_t>(
-      std::count_if(validation.limits.begin(), validation.limits.end(), [](auto& each) { return each.met; }));
+  const auto met =
+      static_cast<std::size_t>(std::ranges::count_if(validation.limits, [](auto& each) { return each.met; }));
   if (met == all) {
     return all == 1 ? fmt::format("The limit of {} is met.", validation.requirements_file)
                     : fmt::format("All {} limits of {} are met.", all, validation.requirements_file);

@@ -168,7 +168,7 @@ HtmlTable status_table(const validation::Validation& validation) {
     total += static_cast<double>(run.samples);
     for (const validation::EstimatorResult& result : run.results) {
       for (const validation::StatusRow& row : result.status) {
-        auto found = std::find_if(statuses.begin(), statuses.end(), [&](auto& each) { return each.first == row.name; });
+        auto found = std::ranges::find_if(statuses, [&](auto& each) { return each.first == row.name; });
         if (found == statuses.end()) found = statuses.insert(statuses.end(), {row.name, {row.meaning, {}}});
         found->second.samples[result.estimator] += row.share * static_cast<double>(run.samples);
       }
