@@ -3,7 +3,7 @@
 #include "addons/cross/embedded_foreign_binaries.hpp"
 #include "addons/cross/firmware_library.hpp"
 #include "addons/cross/system_structure.hpp"
-#include "spoolflow/export/embedded_parts.hpp"
+#include "spoolflow/export/fmu_archive.hpp"
 
 namespace spoolflow::exports {
 namespace {

@@ -32,11 +32,10 @@ struct SelfCheckFailed : std::runtime_error {
 void self_check(const AnalyseArguments& arguments) {
   const analysis::SelfCheck check = analysis::check_ishigami(arguments.samples == 0 ? 1024 : arguments.samples,
                                                              arguments.seed == 0 ? 1 : arguments.seed);
-  if (!arguments.json.empty()) {
-    OutputFile output(arguments.json);
-    report::write_self_check_json(output.stream(), check);
-    output.commit();
-  }
+  Outputs outputs;
+  if (OutputFile* const file = outputs.open_if_named(arguments.json))
+    report::write_self_check_json(file->stream(), check);
+  outputs.commit();
   if (arguments.json != "-") {
     std::string text = fmt::format("Ishigami function, {} base samples, seed {}\n", check.base_samples, check.seed);
     for (std::size_t f = 0; f < check.found.factors.size(); ++f) {
@@ -61,8 +60,7 @@ analysis::Study study(const model::Model& model, const analysis::Scenario& scena
                       const AnalyseArguments& arguments, analysis::RunsWork done_elsewhere, Progress& progress) {
   analysis::StudyWork work = kept_work(arguments);
   work.progress = [&](const std::string& task, double share) {
-    progress.task(task);
-    progress.update(budget_share + (1 - budget_share) * share);
+    progress.update(task, budget_share + (1 - budget_share) * share);
   };
   work.elsewhere = std::move(done_elsewhere);
   return analysis::global_study(model, scenario, valve, work);

@@ -107,10 +107,7 @@ void analyse_series(const AnalyseArguments& arguments) {
   const analysis::SeriesStudy study = [&] {
     Progress progress("series", arguments.quiet);
     analysis::StudyWork work = kept_work(arguments);
-    work.progress = [&](const std::string& task, double share) {
-      progress.task(task);
-      progress.update(share);
-    };
+    work.progress = [&](const std::string& task, double share) { progress.update(task, share); };
     return analysis::series_study(type, arguments.model, valve, arguments.series, scenario.seed, work);
   }();
   if (page != nullptr) report::write_series_study_report(page->stream(), type, study, units);

@@ -24,10 +24,7 @@ MadeModel calibrate_here(const CalibrateArguments& arguments, const CalibrationT
                          const recording::Campaign& campaign) {
   Progress progress("calibrating", arguments.quiet);
   MadeModel out{calibrated(campaign, arguments.despite_doubts,
-                           [&](const std::string& step, double share) {
-                             progress.task(step);
-                             progress.update(share);
-                           }),
+                           [&](const std::string& step, double share) { progress.update(step, share); }),
                 {}};
   if (arguments.as_type) {
     out.model = calibration::type_model(std::move(out.model), calibration::tolerances_from(campaign.tolerances));

@@ -106,11 +106,9 @@ calibration::CalibratedUnit calibrate_unit(const CalibrateArguments& arguments, 
   inputs.emplace_back(arguments.type);
   OutputFile output(task.model, inputs);
   Progress progress("calibrating", arguments.quiet);
-  calibration::CalibratedUnit unit = calibration::calibrate_unit(
-      type, arguments.type, campaign, std::string(tool_version()), [&](const std::string& step, double share) {
-        progress.task(step);
-        progress.update(share);
-      });
+  calibration::CalibratedUnit unit =
+      calibration::calibrate_unit(type, arguments.type, campaign, std::string(tool_version()),
+                                  [&](const std::string& step, double share) { progress.update(step, share); });
   output.stream() << readable_text(unit.model, task.model);
   output.commit();
   for (const std::string& doubt : unit.model.provenance.doubts)
@@ -163,8 +161,8 @@ void calibrate_type(const CalibrateArguments& arguments) {
   for (const recording::Campaign& campaign : campaigns) {
     const auto done = static_cast<double>(units.size());
     units.push_back(calibrated(campaign, arguments.despite_doubts, [&](const std::string& step, double share) {
-      progress.task(fmt::format("{}: {}", campaign.valve.name, step));
-      progress.update((done + share) / static_cast<double>(campaigns.size()));
+      progress.update(fmt::format("{}: {}", campaign.valve.name, step),
+                      (done + share) / static_cast<double>(campaigns.size()));
     }));
     for (const std::string& doubt : units.back().provenance.doubts)
       say("spoolflow: doubt: {}: {}\n", campaign.valve.name, doubt);

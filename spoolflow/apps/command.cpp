@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
@@ -92,17 +93,8 @@ class HelpPage : public CLI::Formatter {
 
 // What a shell completes.
 
-std::vector<const CLI::App*> commands_of(const CLI::App& program) {
-  return program.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
-}
-
 std::string options_of(const CLI::App& command) {
-  std::string out;
-  for (const CLI::Option* option : command.get_options()) {
-    for (const std::string& name : option->get_lnames()) out += (out.empty() ? "--" : " --") + name;
-    for (const std::string& name : option->get_snames()) out += (out.empty() ? "-" : " -") + name;
-  }
-  return out;
+  return fmt::format("{}", fmt::join(option_names(command), " "));
 }
 
 /// Commands first, then options behind a dash, else files; the same for both shells.
@@ -149,6 +141,19 @@ std::string fish_text(const CLI::App& program) {
 }
 
 }  // namespace
+
+std::vector<const CLI::App*> commands_of(const CLI::App& program) {
+  return program.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
 
 void shape_help_page(CLI::App& program) {
   program.formatter(std::make_shared<HelpPage>());

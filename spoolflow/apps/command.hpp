@@ -29,6 +29,11 @@ CLI::App* add_command(CLI::App& program, const CommandText& text);
 /// in the usage line, columns that fit.
 void shape_help_page(CLI::App& program);
 
+/// Those that the overview names.
+[[nodiscard]] std::vector<const CLI::App*> commands_of(const CLI::App& program);
+/// As typed: "--output", "-o".
+[[nodiscard]] std::vector<std::string> option_names(const CLI::App& command);
+
 /// A number from `lowest` to `highest`; NaN is none.
 CLI::Validator between(double lowest, double highest);
 /// A whole number from `lowest` on, written in digits.

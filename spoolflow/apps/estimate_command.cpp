@@ -87,8 +87,7 @@ void report(const std::vector<validation::EstimateSummary>& summaries, const Est
     sound = sound && summary.doubts.empty() && summary.with_fault == 0;
   }
   const bool declared = !arguments.environment.empty() || task.estimator == estimation::Estimator::condensed;
-  if (const std::string note = bench_note(task.model); !note.empty() && !declared && !arguments.quiet)
-    say("{}\n", note);
+  if (!declared && !arguments.quiet) say_note(bench_note(task.model));
   if (arguments.strict && !sound)
     throw std::runtime_error(
         "the estimate is written, but it has faults, or the recording has plausibility findings (--strict)");
@@ -99,8 +98,7 @@ void report(const std::vector<validation::EstimateSummary>& summaries, const Est
 void estimate(const EstimateArguments& arguments) {
   refuse_other_kinds("estimate", arguments.model, arguments.recordings);
   EstimateTask task = estimate_task(arguments);
-  if (const std::string note = type_note(task.model, arguments.model); !note.empty() && !arguments.quiet)
-    say("{}\n", note);
+  if (!arguments.quiet) say_note(type_note(task.model, arguments.model));
   std::vector<validation::EstimateSummary> summaries;
   const bool one = arguments.recordings.size() == 1;
   const auto targets = one ? std::vector<std::filesystem::path>{arguments.output}

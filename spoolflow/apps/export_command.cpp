@@ -20,7 +20,7 @@
 #include "spoolflow/export/c_folder.hpp"
 #include "spoolflow/export/cpp/overwriting.hpp"
 #include "spoolflow/export/cpp_folder.hpp"
-#include "spoolflow/export/embedded_parts.hpp"
+#include "spoolflow/export/fmu_archive.hpp"
 #include "spoolflow/export/parameters/image_summary.hpp"
 #include "spoolflow/export/parameters/parameter_image.hpp"
 #include "spoolflow/export/sensor_fmu.hpp"
@@ -56,6 +56,14 @@ model::Model asked_model(const ExportArguments& arguments) {
       arguments.direction, model.valve.name, model.valve.direction));
 }
 
+/// Of a model without the observer.
+void say_without_observer(const model::Model& model, const char* result, const char* wanted) {
+  if (model.has_observer()) return;
+  say("{}: the model is not calibrated for the observer, so {}; calibrate with a solenoid_dynamic recording and an "
+      "axial_force_map at two or more oil temperatures for {}\n",
+      model.valve.name, result, wanted);
+}
+
 exports::ImageContents image_contents() {
   return {tool_version(), static_cast<std::uint64_t>(model::creation_seconds())};
 }
@@ -80,18 +88,13 @@ void export_folder(const ExportArguments& arguments) {
   if (folder.empty() || folder == "-") throw OutputError("an export needs a folder: name one after -o");
   const std::string refused = exports::why_not_to_overwrite(folder, files);
   if (!refused.empty()) throw OutputError(refused);
-  std::vector<std::unique_ptr<OutputFile>> outputs;
+  Outputs outputs({arguments.model});
   for (const exports::ExportedFile& file : files) {
     make_output_folder((folder / file.name).parent_path());
-    outputs.push_back(std::make_unique<OutputFile>(folder / file.name, std::vector<fs::path>{arguments.model}));
-    outputs.back()->stream() << file.content << std::flush;
+    outputs.open(folder / file.name).stream() << file.content << std::flush;
   }
-  for (const auto& output : outputs) output->commit();
-  if (!model.has_observer()) {
-    say("{}: the model is not calibrated for the observer, so the condensed sensor alone is exported; calibrate "
-        "with a solenoid_dynamic recording and an axial_force_map at two or more oil temperatures for both\n",
-        model.valve.name);
-  }
+  outputs.commit();
+  say_without_observer(model, "the condensed sensor alone is exported", "both");
 }
 
 /// A valve of the virtual rig rather than a model: a TOML file or the name of a preset.
@@ -143,11 +146,7 @@ void export_fmu(const ExportArguments& arguments) {
   refuse_missing(arguments.model);
   const model::Model model = asked_model(arguments);
   write_file(arguments.output, {arguments.model}, exports::sensor_fmu(model, version, tool_version()));
-  if (!model.has_observer()) {
-    say("{}: the model is not calibrated for the observer, so the FMU runs the condensed sensor; calibrate with a "
-        "solenoid_dynamic recording and an axial_force_map at two or more oil temperatures for the observer\n",
-        model.valve.name);
-  }
+  say_without_observer(model, "the FMU runs the condensed sensor", "the observer");
 }
 
 void export_parameters(const ExportArguments& arguments) {
@@ -156,11 +155,7 @@ void export_parameters(const ExportArguments& arguments) {
   contents.condensed = arguments.sensors != "observer";
   contents.observer = arguments.sensors != "condensed";
   write_file(arguments.output, {arguments.model}, exports::parameter_image(model, contents));
-  if (!model.has_observer() && contents.observer) {
-    say("{}: the model is not calibrated for the observer, so the image holds the condensed sensor alone; calibrate "
-        "with a solenoid_dynamic recording and an axial_force_map at two or more oil temperatures for both\n",
-        model.valve.name);
-  }
+  if (contents.observer) say_without_observer(model, "the image holds the condensed sensor alone", "both");
   constexpr std::size_t room = sizeof sensor::ImageHeader::valve_name - 1;  // and a zero
   if (model.valve.name.size() > room) {
     say("{}: the image has room for {} of the name's {} bytes and holds its beginning; distinguish valves by the "

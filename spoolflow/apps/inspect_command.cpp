@@ -14,9 +14,7 @@
 #include "spoolflow/apps/terminal/input_kind.hpp"
 #include "spoolflow/apps/terminal/progress.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
-#include "spoolflow/apps/work/folder_text.hpp"
 #include "spoolflow/apps/work/inspection_text.hpp"
-#include "spoolflow/apps/work/protocol_text.hpp"
 #include "spoolflow/recording/inspection.hpp"
 #include "spoolflow/units/conversion.hpp"
 

@@ -88,7 +88,7 @@ void refuse_unusable(const MonitorArguments& arguments) {
 void monitor_recordings(const MonitorArguments& arguments) {
   refuse_unusable(arguments);
   const model::Model model = model::read_model(arguments.model);
-  if (const std::string note = type_note(model, arguments.model); !note.empty() && !arguments.quiet) say("{}\n", note);
+  if (!arguments.quiet) say_note(type_note(model, arguments.model));
   std::vector<std::filesystem::path> inputs(arguments.recordings.begin(), arguments.recordings.end());
   inputs.insert(inputs.end(), {arguments.model, arguments.channels, arguments.baseline});
   const recording::ChannelMap channels = channels_from(arguments.channels);

@@ -28,19 +28,7 @@ constexpr int done = 0, work_failed = 1, wrong_usage = 2;
 
 std::vector<std::string> command_names(const CLI::App& program) {
   std::vector<std::string> names;
-  for (const CLI::App* command :
-       program.get_subcommands([](const CLI::App* each) { return !each->get_group().empty(); })) {
-    names.push_back(command->get_name());
-  }
-  return names;
-}
-
-std::vector<std::string> option_names(const CLI::App& command) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
-  }
+  for (const CLI::App* command : commands_of(program)) names.push_back(command->get_name());
   return names;
 }
 

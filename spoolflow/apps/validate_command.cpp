@@ -91,7 +91,7 @@ void validate(const ValidateArguments& arguments) {
   refuse_other_kinds("validate", arguments.model, arguments.recordings);
   const report::ReaderUnits units(arguments.units);
   model::Model model = model::read_model(arguments.model);
-  if (const std::string note = type_note(model, arguments.model); !note.empty() && !arguments.quiet) say("{}\n", note);
+  if (!arguments.quiet) say_note(type_note(model, arguments.model));
   if (!arguments.environment.empty()) calibration::apply(recording::read_environment(arguments.environment), model);
   validation::ValidationOptions options{chosen(arguments.estimator, model), {}, {}, arguments.apply_reference_lag};
   if (arguments.reference_lag_ms) options.reference_lag_s = *arguments.reference_lag_ms * 1e-3;

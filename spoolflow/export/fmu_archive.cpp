@@ -1,7 +1,7 @@
 #include "spoolflow/export/fmu_archive.hpp"
 
+#include <algorithm>
 #include <stdexcept>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -14,13 +14,38 @@ namespace spoolflow::exports {
 namespace {
 
 std::string asset(std::string_view name) {
-  for (const EmbeddedFile& file : fmu_assets()) {
-    if (file.name == name) return std::string(file.bytes);
+  const auto found = std::ranges::find(fmu_assets(), name, &EmbeddedFile::name);
+  if (found == fmu_assets().end()) throw std::logic_error("no embedded file " + std::string(name));
+  return std::string(found->bytes);
+}
+
+/// Empty where the program was built without a compiler for it.
+std::string_view binary(const std::string& file) {
+  for (const std::span<const EmbeddedFile> binaries : {fmu_binaries(), foreign_fmu_binaries()}) {
+    const auto found = std::ranges::find(binaries, file, &EmbeddedFile::name);
+    if (found != binaries.end()) return found->bytes;
   }
-  throw std::logic_error("no embedded file " + std::string(name));
+  return {};
 }
 
 }  // namespace
+
+std::span<const EmbeddedFile>& foreign_fmu_binaries() {
+  static std::span<const EmbeddedFile> of_the_program;
+  return of_the_program;
+}
+
+bool windows_is_served() {
+  return !binary("sensor_fmu.dll").empty();
+}
+
+std::vector<std::string> translation_units(std::span<const EmbeddedFile> sources) {
+  std::vector<std::string> units;
+  for (const EmbeddedFile& source : sources) {
+    if (source.name.ends_with(".cpp")) units.emplace_back(source.name);
+  }
+  return units;
+}
 
 std::string instantiation_token(const FmuContent& content, FmiVersion version) {
   numerics::Checksum first, second;
@@ -40,7 +65,8 @@ std::string instantiation_token(const FmuContent& content, FmiVersion version) {
                      digits.substr(16, 4), digits.substr(20));
 }
 
-std::string fmu_archive(FmuContent content, const FmuParts& parts, FmiVersion version) {
+std::string fmu_archive(FmuContent content, const std::string& library, std::span<const EmbeddedFile> sources,
+                        FmiVersion version) {
   content.resource.token = instantiation_token(content, version);
   const bool fmi2 = version == FmiVersion::fmi2;
   const std::string linux64 = fmi2 ? "binaries/linux64/" : "binaries/x86_64-linux/";
@@ -50,13 +76,13 @@ std::string fmu_archive(FmuContent content, const FmuParts& parts, FmiVersion ve
       {std::string("resources/") + fmu::resource_name, fmu::resource_bytes(content.resource)},
       {"documentation/index.html", fmu_documentation(content)},
       {"documentation/licenses/license.txt", asset("LICENSE")}};
-  // What could not be built where this program was is not there.
-  const auto library = [&](const std::string& place, std::string_view bytes) {
-    if (!bytes.empty()) members.push_back({place, std::string(bytes)});
+  const auto add_library = [&](const std::string& place, const std::string& file) {
+    if (const std::string_view bytes = binary(file); !bytes.empty()) members.push_back({place, std::string(bytes)});
   };
-  library(linux64 + content.identifier + ".so", parts.linux64);
-  library(win64 + content.identifier + ".dll", parts.win64);
-  if (!fmi2) library("binaries/aarch64-linux/" + content.identifier + ".so", parts.aarch64);
+  add_library(linux64 + content.identifier + ".so", library + ".so");
+  add_library(win64 + content.identifier + ".dll", library + ".dll");
+  // FMI 2.0 has no name for 64-bit Arm.
+  if (!fmi2) add_library("binaries/aarch64-linux/" + content.identifier + ".so", library + "_aarch64.so");
   if (fmi2) {
     members.push_back({"model.png", asset("icon.png")});
   } else {
@@ -64,7 +90,7 @@ std::string fmu_archive(FmuContent content, const FmuParts& parts, FmiVersion ve
     members.push_back({"terminalsAndIcons/icon.svg", asset("icon.svg")});
   }
   members.push_back({"sources/buildDescription.xml", build_description(content)});
-  for (const EmbeddedFile& source : parts.sources) {
+  for (const EmbeddedFile& source : sources) {
     members.push_back({"sources/" + std::string(source.name), std::string(source.bytes)});
   }
   return zip_archive(members, model::seconds_of(content.generation_time).value_or(0));

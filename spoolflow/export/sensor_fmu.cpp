@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "spoolflow/export/embedded_files.hpp"
-#include "spoolflow/export/embedded_parts.hpp"
 #include "spoolflow/export/fmu/sensor_numbers.hpp"
 #include "spoolflow/export/fmu/sensor_variables.hpp"
+#include "spoolflow/export/fmu_archive.hpp"
 #include "spoolflow/export/xml_text.hpp"
 #include "spoolflow/units/conversion.hpp"
 
@@ -89,8 +89,7 @@ FmuContent sensor_fmu_content(const model::Model& model, std::string_view tool_v
 }
 
 std::string sensor_fmu(const model::Model& model, FmiVersion version, std::string_view tool_version) {
-  return fmu_archive(sensor_fmu_content(model, tool_version), embedded_parts("sensor_fmu", sensor_fmu_sources()),
-                     version);
+  return fmu_archive(sensor_fmu_content(model, tool_version), "sensor_fmu", sensor_fmu_sources(), version);
 }
 
 }  // namespace spoolflow::exports

@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "spoolflow/export/embedded_files.hpp"
-#include "spoolflow/export/embedded_parts.hpp"
 #include "spoolflow/export/fmu/valve_numbers.hpp"
 #include "spoolflow/export/fmu/valve_variables.hpp"
+#include "spoolflow/export/fmu_archive.hpp"
 #include "spoolflow/export/xml_text.hpp"
 #include "spoolflow/model/provenance.hpp"
 #include "spoolflow/units/conversion.hpp"
@@ -66,7 +66,7 @@ FmuContent valve_fmu_content(const rig::ValveUnderTest& valve, std::string_view 
 }
 
 std::string valve_fmu(const rig::ValveUnderTest& valve, FmiVersion version, std::string_view tool_version) {
-  return fmu_archive(valve_fmu_content(valve, tool_version), embedded_parts("valve_fmu", valve_fmu_sources()), version);
+  return fmu_archive(valve_fmu_content(valve, tool_version), "valve_fmu", valve_fmu_sources(), version);
 }
 
 SystemPackage& system_package() {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "spoolflow/model/json_text.hpp"
@@ -78,9 +79,7 @@ std::uint64_t fingerprint(const model::Model& model) {
 }
 
 std::string baseline_text(const Baseline& baseline) {
-  std::array<char, 17> digits{};
-  std::to_chars(digits.data(), digits.data() + 16, baseline.model, 16);
-  Json out{{"model", std::string(digits.data())}};
+  Json out{{"model", fmt::format("{:x}", baseline.model)}};
   for (std::size_t k = 0; k < side_names.size(); ++k) {
     if (baseline.side[k].windows > 0) out[side_names[k]] = side_json(baseline.side[k]);
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace spoolflow::apps {
 
@@ -30,6 +31,11 @@ class Progress {
 
   /// Cheap; to be called once a block of samples.
   void update(std::optional<double> share, std::uint64_t samples = 0);
+  /// Another part of the work, and how far the whole is.
+  void update(std::string task, double share) {
+    this->task(std::move(task));
+    update(share);
+  }
   /// The work goes on to another part of itself; shares keep counting over the whole.
   void task(std::string task);
 

@@ -28,6 +28,11 @@ inline void say_line(const std::string& text) {
   say("spoolflow: {}\n", text);
 }
 
+/// A line; nothing where it is empty.
+inline void say_note(const std::string& note) {
+  if (!note.empty()) say("{}\n", note);
+}
+
 /// What was printed counts as written only once it is: `> /dev/full` must not look like success. Throws as
 /// print_text().
 void flush_standard_output();

@@ -1,5 +1,3 @@
-#include "spoolflow/apps/work/folder_text.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "spoolflow/apps/work/harmless_text.hpp"
+#include "spoolflow/apps/work/inspection_text.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/protocol_channels.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "spoolflow/apps/work/harmless_text.hpp"
@@ -24,9 +25,7 @@ double in_unit(const units::Unit& unit, double value_SI) {
 }
 
 std::string joined(const std::vector<std::string>& names) {
-  std::string out;
-  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
-  return out;
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 /// Columns that the map does not name.
@@ -128,45 +127,6 @@ void add_clocks(std::string& out, const recording::Inspection& found) {
   add_notes(out, found);
 }
 
-void add_text(std::string& out, const InspectedFile& inspected) {
-  const recording::Inspection& found = inspected.found;
-  add(out, "{}: {}, {} columns: {}\n", inspected.file, found.contents.format, found.contents.columns.size(),
-      joined(found.contents.names()));
-  add_clocks(out, found);
-  if (!found.channels.empty()) {
-    add(out, "{} samples from {:.6g} to {:.6g} s ({:.6g} s), {:.6g} Hz", found.samples, found.begin_s, found.end_s,
-        found.end_s - found.begin_s, found.rate_Hz);
-    if (found.jitter > 0.01) add(out, ", time steps vary by up to {:.0f} %", 100 * found.jitter);
-    add(out, "\n");
-    if (found.duplicate_times > 0) add(out, "{}\n", repeated_times_text(found.duplicate_times, found.samples));
-    if (found.gap_count > 0) {
-      add(out, "{} gaps in time", found.gap_count);
-      for (const recording::Gap& gap : found.gaps)
-        add(out, "{} {:.6g} to {:.6g} s", &gap == found.gaps.data() ? ":" : ",", gap.from_s, gap.to_s);
-      add(out, "{}\n", found.gap_count > found.gaps.size() ? ", …" : "");
-    }
-    add(out, "\n{:<24} {:<8} {:>12} {:>12} {:>12} {:>9} {:>9}\n", "channel", "unit", "lowest", "mean", "highest",
-        "missing", "clipped");
-    for (const recording::ChannelSummary& summary : found.channels) {
-      const units::Unit unit = recording::usual_unit(summary.channel);
-      const auto shown = [&](double value) { return in_unit(unit, value); };
-      add(out, "{:<24} {:<8} {:>12.5g} {:>12.5g} {:>12.5g} {:>9} {:>8.2f}%\n", recording::name(summary.channel),
-          unit.name, shown(summary.lowest), shown(summary.mean), shown(summary.highest), summary.missing,
-          100 * summary.clipped);
-    }
-    add(out, "\n");
-  }
-  add_unread(out, found);
-  add_infinite(out, found);
-  if (inspected.map_file.empty()) {
-    add_proposal(out, found);
-  } else if (const std::vector<std::string> columns = columns_left_out(inspected.map, found); columns.empty()) {
-    add(out, "Read with {}, which names every column.\n", inspected.map_file);
-  } else {
-    add(out, "Read with {}; columns that it does not name: {}\n", inspected.map_file, joined(columns));
-  }
-}
-
 using Json = nlohmann::ordered_json;  // writes null for what is no number
 
 Json names_json(const std::vector<recording::Channel>& channels) {
@@ -252,7 +212,42 @@ Json map_json(const recording::ChannelMap& map) {
 
 std::string inspection_text(const InspectedFile& inspected) {
   std::string out;
-  add_text(out, inspected);
+  const recording::Inspection& found = inspected.found;
+  add(out, "{}: {}, {} columns: {}\n", inspected.file, found.contents.format, found.contents.columns.size(),
+      joined(found.contents.names()));
+  add_clocks(out, found);
+  if (!found.channels.empty()) {
+    add(out, "{} samples from {:.6g} to {:.6g} s ({:.6g} s), {:.6g} Hz", found.samples, found.begin_s, found.end_s,
+        found.end_s - found.begin_s, found.rate_Hz);
+    if (found.jitter > 0.01) add(out, ", time steps vary by up to {:.0f} %", 100 * found.jitter);
+    add(out, "\n");
+    if (found.duplicate_times > 0) add(out, "{}\n", repeated_times_text(found.duplicate_times, found.samples));
+    if (found.gap_count > 0) {
+      add(out, "{} gaps in time", found.gap_count);
+      for (const recording::Gap& gap : found.gaps)
+        add(out, "{} {:.6g} to {:.6g} s", &gap == found.gaps.data() ? ":" : ",", gap.from_s, gap.to_s);
+      add(out, "{}\n", found.gap_count > found.gaps.size() ? ", …" : "");
+    }
+    add(out, "\n{:<24} {:<8} {:>12} {:>12} {:>12} {:>9} {:>9}\n", "channel", "unit", "lowest", "mean", "highest",
+        "missing", "clipped");
+    for (const recording::ChannelSummary& summary : found.channels) {
+      const units::Unit unit = recording::usual_unit(summary.channel);
+      const auto shown = [&](double value) { return in_unit(unit, value); };
+      add(out, "{:<24} {:<8} {:>12.5g} {:>12.5g} {:>12.5g} {:>9} {:>8.2f}%\n", recording::name(summary.channel),
+          unit.name, shown(summary.lowest), shown(summary.mean), shown(summary.highest), summary.missing,
+          100 * summary.clipped);
+    }
+    add(out, "\n");
+  }
+  add_unread(out, found);
+  add_infinite(out, found);
+  if (inspected.map_file.empty()) {
+    add_proposal(out, found);
+  } else if (const std::vector<std::string> columns = columns_left_out(inspected.map, found); columns.empty()) {
+    add(out, "Read with {}, which names every column.\n", inspected.map_file);
+  } else {
+    add(out, "Read with {}; columns that it does not name: {}\n", inspected.map_file, joined(columns));
+  }
   return out;
 }
 

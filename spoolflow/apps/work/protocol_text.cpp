@@ -1,5 +1,3 @@
-#include "spoolflow/apps/work/protocol_text.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "spoolflow/apps/work/harmless_text.hpp"
+#include "spoolflow/apps/work/inspection_text.hpp"
 #include "spoolflow/recording/open_table.hpp"
 #include "spoolflow/units/unit.hpp"
 

@@ -8,7 +8,6 @@
 
 #include "spoolflow/report/analysis/analysis_verdict.hpp"
 #include "spoolflow/report/analysis/budget_sections.hpp"
-#include "spoolflow/report/analysis/operating_map_figure.hpp"
 #include "spoolflow/report/calibration/model_sections.hpp"
 #include "spoolflow/report/page/html_page.hpp"
 #include "spoolflow/report/text/html_text.hpp"

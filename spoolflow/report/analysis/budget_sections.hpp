@@ -21,6 +21,11 @@ namespace spoolflow::report {
 /// Mean shares of the variance over the points.
 [[nodiscard]] BarChart share_chart(const std::vector<analysis::GroupShare>& shares, estimation::Estimator estimator);
 
+/// How uncertain an estimator is over position and pressure difference, and which group of inputs makes the most of it
+/// there: two maps beside each other, as markup.
+[[nodiscard]] std::string operating_map_figures(const analysis::OperatingMap& map, double full_scale_m3_per_s,
+                                                const ReaderUnits& units);
+
 /// The uncertainty budget in short, for pages about something else: what makes the uncertainty at three levels of
 /// pressure, with default figures for the instruments and without Monte Carlo.
 void budget_section(HtmlPage& page, const model::Model& model);

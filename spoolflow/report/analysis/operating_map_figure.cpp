@@ -1,10 +1,9 @@
-#include "spoolflow/report/analysis/operating_map_figure.hpp"
-
 #include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
 
+#include "spoolflow/report/analysis/budget_sections.hpp"
 #include "spoolflow/report/figures/heat_scale.hpp"
 #include "spoolflow/report/figures/plot_frame.hpp"
 #include "spoolflow/report/text/html_text.hpp"

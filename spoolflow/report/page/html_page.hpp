@@ -22,7 +22,7 @@ namespace spoolflow::report {
 [[nodiscard]] std::string_view page_script();
 
 /// A figure with the sentence below it. `legend` replaces the legend made from the figure. `live`: data with which the
-/// page's script puts plots that zoom in the figure's place (trace_json.hpp); print keeps the figure.
+/// page's script puts plots that zoom in the figure's place (trace_json.cpp); print keeps the figure.
 struct CaptionedFigure {
   Figure figure;
   Text caption = {};

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "spoolflow/model/residual_of.hpp"
 #include "spoolflow/report/text/number_text.hpp"
@@ -65,9 +66,8 @@ Verdict calibration_verdict(const model::Model& model) {
                     100 * scale->uncertainty_95.value_or(1)));
   }
   if (model.observer && !model.observer->defaults.empty()) {
-    std::string names;
-    for (const std::string& name : model.observer->defaults) names += (names.empty() ? "" : ", ") + name;
-    out.limits.emplace_back("Assumed, because no recording of the campaign shows it: " + names + ".");
+    out.limits.emplace_back(fmt::format("Assumed, because no recording of the campaign shows it: {}.",
+                                        fmt::join(model.observer->defaults, ", ")));
   }
   return out;
 }

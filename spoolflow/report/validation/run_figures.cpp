@@ -2,10 +2,10 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "spoolflow/report/figures/figure.hpp"
 #include "spoolflow/report/text/number_text.hpp"
-#include "spoolflow/report/validation/trace_json.hpp"
 #include "spoolflow/report/validation/validation_figures.hpp"
 
 namespace spoolflow::report {
@@ -156,8 +156,6 @@ CaptionedFigure worst_moment_figure(const validation::RunResult& run, double ful
     panel.marks.push_back(
         line(worst.flow_m3_per_s[e], text(run.results[e].estimator), text(run.results[e].estimator), last ? 1.4 : 0.9));
   }
-  std::string status;
-  for (const std::string& name : worst.status) status += (status.empty() ? "" : ", ") + name;
   return {{.description = "The seconds around the largest error, run " + run.name,
            .x_title = "Time",
            .x_quantity = units::Kind::time,
@@ -171,7 +169,7 @@ CaptionedFigure worst_moment_figure(const validation::RunResult& run, double ful
                                       : phrase("{} open", fixed(units::length(worst.position_m), 2)),
                  worst.pressure_difference_Pa ? phrase(", {}", fixed(units::pressure(*worst.pressure_difference_Pa), 0))
                                               : Text(),
-                 status.empty() ? "none" : status,
+                 worst.status.empty() ? "none" : fmt::format("{}", fmt::join(worst.status, ", ")),
                  worst.moving && std::ranges::count(worst.status, "spool_at_rest") > 0
                      ? ", though it moved: the sensor took friction to hold it"
                      : "")};

@@ -1,5 +1,3 @@
-#include "spoolflow/report/validation/trace_json.hpp"
-
 #include <cmath>
 
 #include <fmt/format.h>
@@ -7,6 +5,7 @@
 
 #include "spoolflow/report/figures/packed_numbers.hpp"
 #include "spoolflow/report/text/number_text.hpp"
+#include "spoolflow/report/validation/validation_figures.hpp"
 #include "spoolflow/units/conversion.hpp"
 #include "spoolflow/units/reader_unit.hpp"
 

@@ -23,6 +23,9 @@ namespace spoolflow::report {
 [[nodiscard]] std::vector<CaptionedFigure> profile_figures(const validation::Validation& validation,
                                                            double full_scale_m3_per_s);
 
+/// A run's trace as web/src/run_data.ts reads it, safe inside a <script> element. Empty where the run has no sample.
+[[nodiscard]] std::string trace_json(const validation::RunResult& run, double full_scale_m3_per_s);
+
 /// How fast the estimate follows: response to the run's steps, and over frequency; what the run does not show is left
 /// out.
 [[nodiscard]] std::vector<CaptionedFigure> dynamics_figures(const validation::RunResult& run);

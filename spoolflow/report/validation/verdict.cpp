@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "spoolflow/report/text/number_text.hpp"
 
@@ -236,11 +237,9 @@ void Judge::add_known_runs(std::vector<Remark>& out) const {
   }
   if (known.empty()) return;
   std::ranges::sort(known);
-  std::string names;
-  for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
   out.push_back({Severity::no_test, 0,
-                 "Also an input of the calibration, so no independent test" +
-                     std::string(validation_.held_out ? " and not counted: " : ": ") + names + "."});
+                 fmt::format("Also an input of the calibration, so no independent test{}: {}.",
+                             validation_.held_out ? " and not counted" : "", fmt::join(known, ", "))});
 }
 
 std::vector<Text> Judge::limits() const {
