@@ -82,7 +82,7 @@ void inspect(const InspectArguments& arguments) {
     fit = fit_of_inspected(arguments.file, options, found, protocol_named(arguments.protocol));
   }
   if (arguments.json) {
-    print_text(inspection_json(found, fit ? protocol_json(*fit) : nlohmann::ordered_json()));
+    print_text(inspection_json(found, fit ? &*fit : nullptr));
   } else {
     print_text(inspection_text({.file = arguments.file == "-" ? "standard input" : arguments.file,
                                 .map_file = arguments.channels,

@@ -251,7 +251,7 @@ std::string inspection_text(const InspectedFile& inspected) {
   return out;
 }
 
-std::string inspection_json(const recording::Inspection& found, const Json& protocol) {
+std::string inspection_json(const recording::Inspection& found, const calibration::ProtocolFit* fit) {
   Json out{{"format", found.contents.format},
            {"columns", found.contents.names()},
            {"unread", found.contents.unread},
@@ -271,7 +271,7 @@ std::string inspection_json(const recording::Inspection& found, const Json& prot
            {"missing", names_json(found.missing)},
            {"helpful", names_json(found.helpful)},
            {"proposed_map", map_json(found.proposal)}};
-  if (!protocol.is_null()) out["protocol"] = protocol;
+  if (fit != nullptr) out["protocol"] = protocol_json(*fit);
   out["proposed_channel_map"] = recording::written(found.proposal, found.remarks, found.missing);
   return json_text(out);
 }

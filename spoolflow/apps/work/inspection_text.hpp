@@ -22,9 +22,9 @@ struct InspectedFile {
 
 /// For people.
 [[nodiscard]] std::string inspection_text(const InspectedFile& inspected);
-/// For programs, `inspect --json`. `protocol`: protocol_json() where it was asked for, else null.
+/// For programs, `inspect --json`. `fit`: to the protocol that was asked for; null: none was.
 [[nodiscard]] std::string inspection_json(const recording::Inspection& found,
-                                          const nlohmann::ordered_json& protocol = {});
+                                          const calibration::ProtocolFit* fit = nullptr);
 
 /// Of an inspected file, with the channel map that it was given, else with what of the proposed one has its units.
 /// Columns without numbers and with infinite ones do not serve. `file`: named, no pipe. Throws RecordingError.
