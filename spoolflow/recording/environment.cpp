@@ -40,9 +40,8 @@ constexpr std::array keys{Key{"position_zero_um", &Environment::position_zero_m,
 
 /// As the key ends: "percent" of position_gain_percent.
 std::string unit_of(const std::string& key) {
-  const std::string written = key.substr(key.rfind('_') + 1);
-  if (written == "min") return "L/min";
-  return written;
+  std::string written = key.substr(key.rfind('_') + 1);
+  return written == "min" ? "L/min" : written;
 }
 
 Environment of_kind(const std::string& kind, const std::string& place) {

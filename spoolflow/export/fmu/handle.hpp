@@ -60,8 +60,7 @@ Status on(void* handle, const Work& work) noexcept {
 /// A function that this FMU does not offer.
 template <class Status>
 Status not_offered(void* handle, const char* function) noexcept {
-  const auto refuse = [&](Instance&) { throw CallError(std::string(function) + " is not offered by this FMU"); };
-  return on<Status>(handle, refuse);
+  return on<Status>(handle, [&](Instance&) { throw CallError(std::string(function) + " is not offered by this FMU"); });
 }
 
 /// No variable has this type.
