@@ -38,7 +38,8 @@ sensor::Environment<double> of_valve(const recording::Environment& from, const m
   out.ripple_Pa = from.ripple_Pa;
   out.flow_share = from.density / 2 / deviations_at_95;  // the orifice equation's root
   out.leakage_m3_per_s = from.leakage_m3_per_s / deviations_at_95;
-  out.highest_pressure_Pa = std::max(from.highest_Pa.value_or(usual_highest_pressure_ratio * highest_Pa), highest_Pa);
+  out.highest_pressure_Pa =
+      std::max(from.highest_Pa.value_or(model::usual_highest_pressure_ratio * highest_Pa), highest_Pa);
   return out;
 }
 

@@ -5,10 +5,6 @@
 
 namespace spoolflow::calibration {
 
-/// The pressure difference up to which a model answers, over the highest that was calibrated, where nobody declares it:
-/// flow force in proportion to the pressure difference holds so far (paper (2)).
-inline constexpr double usual_highest_pressure_ratio = 1.2;
-
 /// Puts the environment into every observer of the model, in place of the one before; a model without observer stays as
 /// it is. What is open of the unit itself stays, too: what units of its type differ by, and what its references leave
 /// open. `environment.highest_Pa` below the calibrated pressure difference leaves that.

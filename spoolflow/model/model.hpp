@@ -110,6 +110,10 @@ struct Condensed {
 /// Among an observer's defaults: A and B were joined on the bench, and the load passes unequal flows over both edges.
 inline constexpr const char* each_edge_alone = "each edge by itself: both are taken as alike";
 
+/// The pressure difference up to which a model answers, over the highest that was calibrated, where nobody declares it:
+/// flow force in proportion to the pressure difference holds so far (paper (2)).
+inline constexpr double usual_highest_pressure_ratio = 1.2;
+
 /// The full sensor; a model may lack it.
 struct Observer {
   sensor::ObserverParameters<double> parameters;

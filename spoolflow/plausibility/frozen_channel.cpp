@@ -171,4 +171,18 @@ double oil_temperature_changes_per_s(const Recording& means) {
   return duration_s > 0 ? changes / duration_s : 0;
 }
 
+std::string standing_channel(const Recording& run, double stroke_m) {
+  constexpr double changing_A = 0.1, moving_share = 0.2;
+  std::vector<Channel> alive{Channel::position, Channel::current};
+  if (range_of(run.column(Channel::current)) > changing_A) alive.push_back(Channel::voltage);
+  if (range_of(run.column(Channel::position)) > moving_share * stroke_m) alive.push_back(Channel::flow);
+  for (const Channel channel : alive) {
+    if (const std::optional<double> value = standing_value(run.column(channel))) {
+      return fmt::format("{} stands still at {:.3g} (SI) all along: look at its wire and its column in the channel map",
+                         recording::name(channel == Channel::flow ? Channel::flow_reference : channel), *value);
+    }
+  }
+  return {};
+}
+
 }  // namespace spoolflow::plausibility

@@ -32,31 +32,6 @@ namespace {
 using recording::Channel;
 using recording::Recording;
 
-/// Rows in which the spool stands open to one side (+1 or -1), in that side's signs, with that side's coil, or with the
-/// active one where that alone was recorded.
-Recording one_side(const Recording& run, int side) {
-  const bool active = !recording::has_both_coils(run);
-  const Channel current = active ? Channel::current : side > 0 ? Channel::current_b : Channel::current_a;
-  const Channel voltage = active ? Channel::voltage : side > 0 ? Channel::voltage_b : Channel::voltage_a;
-  const std::array<std::pair<Channel, Channel>, 6> taken{
-      {{Channel::time, Channel::time},
-       {Channel::position, Channel::position},
-       {Channel::current, current},
-       {Channel::voltage, voltage},
-       {Channel::flow, Channel::flow},
-       {Channel::pressure_difference, Channel::pressure_difference}}};
-  Recording out{run.file, {}};
-  const std::vector<double>& position_m = run.column(Channel::position);
-  for (const auto& [to, from] : taken) {
-    if (!run.has(from)) continue;
-    const bool is_signed = to == Channel::position || to == Channel::flow;
-    for (std::size_t k = 0; k < position_m.size(); ++k) {
-      if (side * position_m[k] > 0) out.column(to).push_back((is_signed ? side : 1) * run.column(from)[k]);
-    }
-  }
-  return out;
-}
-
 /// A run beside the valve that it should be of.
 class RunTrial {
  public:
@@ -68,7 +43,7 @@ class RunTrial {
   [[nodiscard]] std::vector<Deviation> deviations() const {
     std::vector<Deviation> out;
     if (!both_) {
-      add_run_deviations(out, valve_.front().hydraulics, valve_.front().magnetics, run);
+      add_run_deviations(out, bounded(valve_.front()), valve_.front().magnetics, run);
       const Recording slow = longer_blocks(run);
       add_resistance_deviation(out, {&slow}, valve_.front().coil.resistance_Ohm);
       return out;
@@ -80,7 +55,7 @@ class RunTrial {
       std::vector<Deviation> found;
       const Recording slow = longer_blocks(part);
       add_resistance_deviation(found, {&slow}, known.coil.resistance_Ohm);
-      add_run_deviations(found, known.hydraulics, known.magnetics, part);
+      add_run_deviations(found, bounded(known), known.magnetics, part);
       std::erase_if(found, [](const Deviation& deviation) { return deviation.of == "travel"; });
       for (Deviation& deviation : found) {
         if (deviation.of.ends_with(',')) deviation.of.pop_back();
@@ -110,8 +85,14 @@ class RunTrial {
   [[nodiscard]] std::span<const KnownValve> directions() const { return std::span(valve_).first(both_ ? 2 : 1); }
 
   Recording run;
+  double pressure_factor = 1;  ///< by which the machine's highest pressure difference is beyond what is known
 
  private:
+  [[nodiscard]] HydraulicCurves bounded(const KnownValve& valve) const {
+    HydraulicCurves out = valve.hydraulics;
+    out.bounding_pressure_Pa = pressure_factor * out.highest_bound_Pa();
+    return out;
+  }
   const std::vector<KnownValve>& valve_;
   bool both_;
 };
@@ -220,22 +201,6 @@ std::optional<RunExplanation> best_explanation(RunTrial& trial, const std::vecto
   return best;
 }
 
-/// A channel that stands still while what moves it does not: the voltage while the current changes, the reference flow
-/// while the spool moves.
-std::string dead_channel(const Recording& run, double stroke_m) {
-  constexpr double changing_A = 0.1, moving_share = 0.2;
-  std::vector<Channel> alive{Channel::position, Channel::current};
-  if (range_of(run.column(Channel::current)) > changing_A) alive.push_back(Channel::voltage);
-  if (range_of(run.column(Channel::position)) > moving_share * stroke_m) alive.push_back(Channel::flow);
-  for (const Channel channel : alive) {
-    if (const std::optional<double> value = standing_value(run.column(channel))) {
-      return fmt::format("{} stands still at {:.3g} (SI) all along: look at its wire and its column in the channel map",
-                         shown_name(channel), *value);
-    }
-  }
-  return {};
-}
-
 /// What the relations of a run say against it.
 struct ErrorFinding {
   bool cannot_be;
@@ -243,6 +208,19 @@ struct ErrorFinding {
   bool of_position;  ///< that of the position
   std::string text;
 };
+
+/// The pressure difference above which nothing speaks against the run, if no more than 2.5 times what is known.
+std::optional<double> explaining_pressure_Pa(RunTrial& trial) {
+  std::optional<double> found;
+  for (const double factor : {1.25, 1.5, 1.75, 2.0, 2.25, 2.5}) {
+    trial.pressure_factor = factor;
+    if (std::ranges::max(trial.deviations(), {}, &Deviation::over_limit).over_limit > 1) continue;
+    found = factor * trial.directions().front().hydraulics.highest_bound_Pa();
+    break;
+  }
+  trial.pressure_factor = 1;
+  return found;
+}
 
 std::optional<ErrorFinding> error_finding(RunTrial& trial) {
   const std::vector<Deviation> now = trial.deviations();
@@ -255,10 +233,17 @@ std::optional<ErrorFinding> error_finding(RunTrial& trial) {
       all || (found && found->badness < left_share * badness(now) && over_limit_of(found->deviations, *worst) <= 1);
   if (worst->of.starts_with(largest_opening) && !all) return std::nullopt;
   const bool cannot_be = worst->over_limit > surely;
-  if (explains) {
-    return ErrorFinding{cannot_be, true, found->of_position,
-                        fmt::format("{}, {}", found->text, text(deciding_change(now, found->deviations)))};
+  const std::string error =
+      explains ? fmt::format("{}, {}", found->text, text(deciding_change(now, found->deviations))) : "";
+  if (const std::optional<double> pressure_Pa = explaining_pressure_Pa(trial)) {
+    const double known_Pa = trial.directions().front().hydraulics.highest_bound_Pa();
+    return ErrorFinding{
+        false, true, explains && found->of_position,
+        fmt::format("forces ask for pressure differences of up to {:.0f} bar, and {:.0f} bar are "
+                    "calibrated or declared: declare [environment] highest_pressure_bar{}{}",
+                    units::bar_from_Pa(*pressure_Pa), units::bar_from_Pa(known_Pa), explains ? "; or " : "", error)};
   }
+  if (explains) return ErrorFinding{cannot_be, true, found->of_position, error};
   return ErrorFinding{
       cannot_be, false, false,
       fmt::format("{} is {}, which no usual recording error of one channel explains: is the model of this valve, and "
@@ -300,7 +285,7 @@ std::vector<Finding> run_findings(const std::vector<KnownValve>& valve, const Ru
   }
   RunTrial trial(valve, run.means(file));
   for (const std::string& dead :
-       {dead_channel(trial.run, trial.stroke_m()), signed_coil_currents(trial.run), frozen_channel(trial.run)}) {
+       {standing_channel(trial.run, trial.stroke_m()), signed_coil_currents(trial.run), frozen_channel(trial.run)}) {
     if (dead.empty()) continue;
     out.push_back({true, fmt::format("{}: {}", name, dead)});
     return out;

@@ -1,14 +1,17 @@
 #include "spoolflow/plausibility/run_relations.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "spoolflow/numerics/meter_lag.hpp"
 #include "spoolflow/plausibility/block_means.hpp"
 #include "spoolflow/plausibility/limits.hpp"
+#include "spoolflow/recording/coil_channels.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::plausibility {
@@ -25,7 +28,7 @@ double least_imbalance_N(const HydraulicCurves& hydraulics) {
 /// What the solenoid pulls beyond springs, the largest flow force and friction at a position [N]; NaN where either is
 /// not known.
 double pull_beyond_N(const HydraulicCurves& hydraulics, const MagneticCurves& magnetics, double current_A, double x) {
-  const double most_N = hydraulics.force_per_Pa_at(x) * hydraulics.highest_pressure_Pa;
+  const double most_N = hydraulics.force_per_Pa_at(x) * hydraulics.highest_bound_Pa();
   return magnetics.at(current_A, x) - hydraulics.spring_at(x) - most_N - 2 * hydraulics.friction_N;
 }
 
@@ -187,6 +190,29 @@ void add_flow_deviations(std::vector<Deviation>& to, const HydraulicCurves& hydr
 }
 
 }  // namespace
+
+Recording one_side(const Recording& run, int side) {
+  const bool active = !recording::has_both_coils(run);
+  const Channel current = active ? Channel::current : side > 0 ? Channel::current_b : Channel::current_a;
+  const Channel voltage = active ? Channel::voltage : side > 0 ? Channel::voltage_b : Channel::voltage_a;
+  const std::array<std::pair<Channel, Channel>, 6> taken{
+      {{Channel::time, Channel::time},
+       {Channel::position, Channel::position},
+       {Channel::current, current},
+       {Channel::voltage, voltage},
+       {Channel::flow, Channel::flow},
+       {Channel::pressure_difference, Channel::pressure_difference}}};
+  Recording out{run.file, {}};
+  const std::vector<double>& position_m = run.column(Channel::position);
+  for (const auto& [to, from] : taken) {
+    if (!run.has(from)) continue;
+    const bool is_signed = to == Channel::position || to == Channel::flow;
+    for (std::size_t k = 0; k < position_m.size(); ++k) {
+      if (side * position_m[k] > 0) out.column(to).push_back((is_signed ? side : 1) * run.column(from)[k]);
+    }
+  }
+  return out;
+}
 
 std::vector<double> expected_flow(const HydraulicCurves& hydraulics, const Recording& run) {
   const std::vector<double>& position_m = run.column(Channel::position);

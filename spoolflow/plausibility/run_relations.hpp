@@ -7,6 +7,10 @@
 
 namespace spoolflow::plausibility {
 
+/// Rows in which the spool stands open to one side (+1 or -1), in that side's signs, with that side's coil, or with the
+/// active one where that alone was recorded.
+[[nodiscard]] recording::Recording one_side(const recording::Recording& run, int side);
+
 /// What edge and pressure difference make of a run's positions, block by block [m3/s]; at the valve's highest pressure
 /// difference where none was recorded.
 [[nodiscard]] std::vector<double> expected_flow(const HydraulicCurves& hydraulics, const recording::Recording& run);

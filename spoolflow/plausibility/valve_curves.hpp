@@ -1,6 +1,7 @@
 #pragma once
 /// One direction of a valve in few numbers, straight from its bench recordings: spring, flow force, flow and magnetic
 /// force over few knots. Too coarse for a sensor, true enough to show a recording error from a measurement.
+#include <algorithm>
 #include <vector>
 
 #include "spoolflow/recording/recording.hpp"
@@ -24,8 +25,10 @@ struct HydraulicCurves {
   double largest_flow_m3_per_s = 0;   ///< without sign
   double friction_N = 0;              ///< half width
   double highest_pressure_Pa = 0;     ///< measured
+  double bounding_pressure_Pa = 0;    ///< that the machine may have, where it is higher
   double jet_momentum_share = 0;      ///< flow force over rho Q sqrt(2 dp / rho): the cosine of the jet's angle, nearly
 
+  [[nodiscard]] double highest_bound_Pa() const { return std::max(highest_pressure_Pa, bounding_pressure_Pa); }
   [[nodiscard]] double spring_at(double position_m) const;
   [[nodiscard]] double force_per_Pa_at(double position_m) const;
   [[nodiscard]] double conductance_at(double position_m) const;
