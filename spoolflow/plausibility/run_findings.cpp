@@ -209,7 +209,7 @@ struct ErrorFinding {
   std::string text;
 };
 
-/// The pressure difference above which nothing speaks against the run, if no more than 2.5 times what is known.
+/// The lowest pressure difference with which nothing speaks against the run, if no more than 2.5 times what is known.
 std::optional<double> explaining_pressure_Pa(RunTrial& trial) {
   std::optional<double> found;
   for (const double factor : {1.25, 1.5, 1.75, 2.0, 2.25, 2.5}) {
@@ -239,7 +239,7 @@ std::optional<ErrorFinding> error_finding(RunTrial& trial) {
     const double known_Pa = trial.directions().front().hydraulics.highest_bound_Pa();
     return ErrorFinding{
         false, true, explains && found->of_position,
-        fmt::format("forces ask for pressure differences of up to {:.0f} bar, and {:.0f} bar are "
+        fmt::format("forces ask for pressure differences of {:.0f} bar at least, and {:.0f} bar are "
                     "calibrated or declared: declare [environment] highest_pressure_bar{}{}",
                     units::bar_from_Pa(*pressure_Pa), units::bar_from_Pa(known_Pa), explains ? "; or " : "", error)};
   }

@@ -128,6 +128,21 @@ std::vector<KnownValve> as_fine_as(const recording::Recording& run) {
   return known;
 }
 
+TEST(RunFindings, NameThePressureThatForcesAskForAndNothingWhereItIsDeclared) {
+  const RigBenches& valve = sound_size_6();
+  KnownValve known = known_valve(valve.benches());
+  recording::Recording run = valve.recordings.at("ramp_60bar.csv");
+  keep_what_a_sensor_reads(run);
+  for (const Channel reference : {Channel::flow, Channel::pressure_difference}) run.column(reference).clear();
+  known.hydraulics.highest_pressure_Pa = 20e5;
+  const std::string found = all_texts(run_findings({known}, means_of(run), "run.csv"));
+  EXPECT_THAT(found,
+              testing::MatchesRegex("run.csv: forces ask for pressure differences of up to (35|40|45|50) bar, and "
+                                    "20 bar are calibrated or declared[^\n]*\n"));
+  known.hydraulics.bounding_pressure_Pa = 60e5;
+  EXPECT_EQ(all_texts(run_findings({known}, means_of(run), "run.csv")), "");
+}
+
 TEST(RunFindings, NameTwoColumnsInEachOthersPlaceEachReadInTheOthersUnit) {
   const RigBenches& valve = sound_size_6();
   const std::vector<KnownValve> known{known_valve(valve.benches())};
