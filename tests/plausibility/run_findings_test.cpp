@@ -137,8 +137,7 @@ TEST(RunFindings, NameThePressureThatForcesAskForAndNothingWhereItIsDeclared) {
   known.hydraulics.highest_pressure_Pa = 20e5;
   const std::string found = all_texts(run_findings({known}, means_of(run), "run.csv"));
   EXPECT_THAT(found,
-              testing::MatchesRegex("run.csv: forces ask for pressure differences of up to (35|40|45|50) bar, and "
-                                    "20 bar are calibrated or declared[^\n]*\n"));
+              testing::StartsWith("run.csv: forces ask for pressure differences of 30 bar at least, and 20 bar "));
   known.hydraulics.bounding_pressure_Pa = 60e5;
   EXPECT_EQ(all_texts(run_findings({known}, means_of(run), "run.csv")), "");
 }
