@@ -49,7 +49,7 @@ TEST(DeclaredMachine, ReachesTheDeclaredPressureButNeverLessThanTheCalibratedOne
   model::Model model = example();
   const double calibrated_Pa = model.observer->parameters.edge.highest_pressure_difference_Pa();
   apply({}, model);
-  EXPECT_DOUBLE_EQ(of(model).highest_pressure_Pa, usual_highest_pressure_ratio * calibrated_Pa);
+  EXPECT_DOUBLE_EQ(of(model).highest_pressure_Pa, model::usual_highest_pressure_ratio * calibrated_Pa);
   recording::Environment declared;
   declared.highest_Pa = 10e5;
   apply(declared, model);
