@@ -1,6 +1,8 @@
 #include "spoolflow/apps/estimate_work.hpp"
 
+#include <cmath>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -34,11 +36,26 @@ struct EstimatedBlock {
   std::optional<double> share;
 };
 
-void take(monitor::Monitor& watch, const recording::SampleBlock& samples,
-          const std::vector<sensor::Estimate<double>>& answers) {
-  const estimation::Columns columns = estimation::sensor_columns(samples);
-  for (std::size_t k = 0; k < answers.size(); ++k) watch.take(columns[k], answers[k]);
-}
+/// The model's monitor over the first minutes of a run: enough strokes, whatever the rest takes.
+class FirstMinutes {
+ public:
+  explicit FirstMinutes(const model::Model& model) : watch_(model) {}
+  void take(const recording::SampleBlock& samples, const std::vector<sensor::Estimate<double>>& answers) {
+    constexpr double watched_s = 300;
+    const estimation::Columns columns = estimation::sensor_columns(samples);
+    if (answers.empty()) return;
+    if (std::isnan(begin_s_)) begin_s_ = columns.time_s.front();
+    if (columns.time_s.front() - begin_s_ > watched_s) return;
+    for (std::size_t k = 0; k < answers.size(); ++k) watch_.take(columns[k], answers[k]);
+  }
+  void add_contradiction(const std::string& file, std::vector<std::string>& doubts) {
+    monitor::add_contradiction(watch_, file, doubts);
+  }
+
+ private:
+  monitor::Monitor watch_;
+  double begin_s_ = std::nan("");
+};
 
 }  // namespace
 
@@ -80,7 +97,7 @@ validation::EstimateSummary estimate_recording(const EstimateTask& task, const s
   const recording::TableFormat format = format_for(task, target);
   validation::EstimateSummary summary{.file = runs_on ? "standard input" : recording};
   plausibility::RunMeans means;
-  std::optional<monitor::Monitor> watch;
+  std::optional<FirstMinutes> watch;
   if (task.estimator == estimation::Estimator::observer) watch.emplace(task.model);
   {
     Progress progress("estimating", task.quiet);
@@ -111,7 +128,7 @@ validation::EstimateSummary estimate_recording(const EstimateTask& task, const s
       put_estimates(rows, block->samples.column(recording::Channel::time), block->estimates);
       writer->write(rows);
       summary.add(block->estimates);
-      if (watch) take(*watch, block->samples, block->estimates);
+      if (watch) watch->take(block->samples, block->estimates);
       if (runs_on) writer->hand_over();  // whoever reads waits for these rows
       summary.notes = block->notes;
       progress.update(block->share, block->notes.rows);
@@ -121,7 +138,7 @@ validation::EstimateSummary estimate_recording(const EstimateTask& task, const s
   output.commit();
   for (plausibility::Finding& finding : plausibility::run_findings(task.known, means, recording))
     summary.doubts.push_back(std::move(finding.text));
-  if (watch) monitor::add_contradiction(*watch, summary.file, summary.doubts);
+  if (watch) watch->add_contradiction(summary.file, summary.doubts);
   return summary;
 }
 
