@@ -60,9 +60,8 @@ void add_contradiction(Monitor& watch, const std::string& file, std::vector<std:
   const std::string found = contradiction(watch);
   if (found.empty()) return;
   doubts.push_back(
-      fmt::format("{}: the forces contradict the model, so that flow and band are wrong: {}; see `spoolflow monitor`, "
-                  "then mend the "
-                  "channel, or calibrate this unit",
+      fmt::format("{}: the forces contradict the model, so that flow and band are wrong: {}; mend the channel, or "
+                  "calibrate this unit (`spoolflow monitor` shows more)",
                   std::filesystem::path(file).filename().string(), found));
 }
 
