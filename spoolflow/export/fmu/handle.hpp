@@ -30,18 +30,18 @@ class Handle {
       work();
       return static_cast<Status>(status_ok);
     } catch (const StepRefused& error) {
-      return told(status_discard, "logStatusDiscard", error.what());
+      return logged(status_discard, "logStatusDiscard", error.what());
     } catch (const std::exception& error) {
-      return told(status_error, "logStatusError", error.what());
+      return logged(status_error, "logStatusError", error.what());
     } catch (...) {
-      return told(status_fatal, "logStatusFatal", "a failure without a name");
+      return logged(status_fatal, "logStatusFatal", "a failure without a name");
     }
   }
 
   std::unique_ptr<Instance> instance;
 
  private:
-  Status told(StatusNumber status, const char* category, const char* message) const {
+  Status logged(StatusNumber status, const char* category, const char* message) const {
     log_(static_cast<Status>(status), category, message);
     return static_cast<Status>(status);
   }

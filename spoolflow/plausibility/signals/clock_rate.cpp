@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/plausibility/signals/coil_blocks.hpp"
+
 namespace spoolflow::plausibility {
 namespace {
 
@@ -113,13 +115,9 @@ InducedShare induced_share(const std::vector<CoilMean>& means) {
 
 /// Over that of the calibration, by the means of all currents.
 double resistance_ratio(const std::vector<CoilMean>& means, double resistance_Ohm) {
-  double current2 = 0, both = 0;
-  for (const CoilMean& mean : means) {
-    if (!std::isfinite(mean.current_A + mean.voltage_V)) continue;
-    current2 += mean.current_A * mean.current_A;
-    both += mean.current_A * mean.voltage_V;
-  }
-  return both / current2 / resistance_Ohm;
+  CoilResistance resistance;
+  for (const CoilMean& mean : means) resistance.take(mean.current_A, mean.voltage_V);
+  return resistance.Ohm() / resistance_Ohm;
 }
 
 }  // namespace

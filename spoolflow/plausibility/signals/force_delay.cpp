@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/numerics/meter_lag.hpp"
+#include "spoolflow/plausibility/signals/coil_blocks.hpp"
 
 namespace spoolflow::plausibility {
 namespace {
@@ -50,18 +51,11 @@ std::vector<double> block_means_of(const std::vector<double>& time_s, const std:
 
 Stretch stretch_of(const std::vector<double>& current_A, const std::vector<double>& voltage_V,
                    const std::vector<double>& force_N) {
-  double both = 0, squares = 0;
-  for (std::size_t k = 0; k < current_A.size(); ++k) {
-    both += voltage_V[k] * current_A[k];
-    squares += current_A[k] * current_A[k];
-  }
-  const double resistance_Ohm = both / squares;
-  const auto induced_V = [&](std::size_t k) { return voltage_V[k] - resistance_Ohm * current_A[k]; };
+  const double resistance_Ohm = resistance_Ohm_of(current_A, voltage_V);
   Stretch out;
   for (std::size_t k = 2; k + 2 < current_A.size(); ++k) {
-    out.power_W.push_back(current_A[k] * (induced_V(k - 1) + induced_V(k) + induced_V(k + 1)) / 3);
-    out.force_rate_N_per_s.push_back((force_N[k + 1] + force_N[k + 2] - force_N[k - 1] - force_N[k - 2]) /
-                                     (6 * block_s));
+    out.power_W.push_back(current_A[k] * induced_V(current_A, voltage_V, resistance_Ohm, k));
+    out.force_rate_N_per_s.push_back(rate(force_N, k, block_s));
   }
   return out;
 }
@@ -132,19 +126,19 @@ std::string late_force(const Recording& run) {
   const std::vector<Stretch> stretches = stretches_of(run);
   if (stretches.empty()) return {};
   numerics::MeterLag found;
-  double best = 0;
+  double best = 0, unshifted = 0;
   for (const double lag_s : lags_s) {
     const Correlation correlation(stretches, lag_s);
     for (std::ptrdiff_t delay = earliest; delay <= latest; ++delay) {
       const double now = correlation.at(delay);
+      if (lag_s == 0 && delay == 0) unshifted = now;
       if (now <= best) continue;
       best = now;
       found = {static_cast<double>(delay) * block_s, lag_s};
     }
   }
   const double late_s = found.dead_time_s + found.lag_s;
-  if (std::abs(late_s) < usual_s || best < least_correlation || best - Correlation(stretches, 0).at(0) < least_gain)
-    return {};
+  if (std::abs(late_s) < usual_s || best < least_correlation || best - unshifted < least_gain) return {};
   constexpr double ms_per_s = 1e3;
   return fmt::format(
       "force comes {:.0f} ms {} the coil's voltage and current, whose flux makes it (as of {:.0f} ms of delay and a "

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "spoolflow/plausibility/signals/coil_blocks.hpp"
+
 namespace spoolflow::plausibility {
 namespace {
 
@@ -16,26 +18,11 @@ constexpr std::ptrdiff_t margin = 2;       ///< of rates, on either side
 constexpr double fast_strokes_per_s = 0.5, fewest_fast = 500;
 constexpr double step_A = 0.01, step_m = 1e-5;  ///< of the flux linkage's derivatives
 
-/// By the means of two blocks on either side, over 6 ms.
-double rate(const std::vector<double>& means, std::size_t k) {
-  return (means[k + 1] + means[k + 2] - means[k - 1] - means[k - 2]) / (6 * MotionTrace::block_s);
-}
-
 /// One block: what its coil has beside the resistance, and what current and motion induce in it.
 struct Induced {
   double voltage_V, by_current_V, per_speed_Vs_per_m;
   std::size_t block;
 };
-
-double resistance_Ohm(const std::vector<double>& current_A, const std::vector<double>& voltage_V) {
-  double both = 0, squares = 0;
-  for (std::size_t k = 0; k < current_A.size(); ++k) {
-    if (!std::isfinite(current_A[k] + voltage_V[k])) continue;
-    both += voltage_V[k] * current_A[k];
-    squares += current_A[k] * current_A[k];
-  }
-  return both / squares;
-}
 
 /// Blocks within `most_shift` of a fast one, each once; those of a gap are left out.
 std::vector<std::size_t> about_motion(const std::vector<double>& speed_m_per_s, double fast_m_per_s) {
@@ -73,18 +60,18 @@ double left_over(const std::vector<Induced>& all, const std::vector<double>& spe
 std::optional<double> induced_delay_s(const MotionTrace& run, const KnownCoil& coil, double stroke_m) {
   if (!coil.flux_Wb) return std::nullopt;
   const std::vector<double> position_m = run.position_m(), current_A = run.current_A(), voltage_V = run.voltage_V();
-  const double resistance = resistance_Ohm(current_A, voltage_V);
-  if (!std::isfinite(resistance)) return std::nullopt;
+  const double resistance_Ohm = resistance_Ohm_of(current_A, voltage_V);
+  if (!std::isfinite(resistance_Ohm)) return std::nullopt;
   std::vector<double> speed_m_per_s(position_m.size(), std::nan(""));
-  for (std::size_t k = margin; k + margin < position_m.size(); ++k) speed_m_per_s[k] = rate(position_m, k);
+  for (std::size_t k = margin; k + margin < position_m.size(); ++k)
+    speed_m_per_s[k] = rate(position_m, k, MotionTrace::block_s);
   std::vector<Induced> all;
   for (const std::size_t k : about_motion(speed_m_per_s, fast_strokes_per_s * stroke_m)) {
-    double voltage = 0;
-    for (std::size_t j = k - 1; j <= k + 1; ++j) voltage += (voltage_V[j] - resistance * current_A[j]) / 3;
     const double i = current_A[k], x = position_m[k];
     const double per_A = (coil.flux_Wb(i + step_A, x) - coil.flux_Wb(i - step_A, x)) / (2 * step_A);
     const double per_m = (coil.flux_Wb(i, x + step_m) - coil.flux_Wb(i, x - step_m)) / (2 * step_m);
-    const Induced induced{voltage, per_A * rate(current_A, k), per_m, k};
+    const Induced induced{induced_V(current_A, voltage_V, resistance_Ohm, k),
+                          per_A * rate(current_A, k, MotionTrace::block_s), per_m, k};
     if (std::isfinite(induced.voltage_V + induced.by_current_V)) all.push_back(induced);
   }
   if (static_cast<double>(all.size()) < fewest_fast) return std::nullopt;
