@@ -46,7 +46,7 @@ class FirstMinutes {
     if (answers.empty()) return;
     if (std::isnan(begin_s_)) begin_s_ = columns.time_s.front();
     if (columns.time_s.front() - begin_s_ > watched_s) return;
-    for (std::size_t k = 0; k < answers.size(); ++k) watch_.take(columns[k], answers[k]);
+    watch_.take(columns, answers);
   }
   void add_contradiction(const std::string& file, std::vector<std::string>& doubts) {
     monitor::add_contradiction(watch_, file, doubts);

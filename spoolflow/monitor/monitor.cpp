@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "spoolflow/monitor/healthy_spread.hpp"
 #include "spoolflow/monitor/indicators.hpp"
@@ -65,12 +64,6 @@ bool Monitor::set_state(const MonitorState& state) {
   if (state.version != watch_state_version || !numerics::holds_numbers(state)) return false;
   state_ = state;
   return true;
-}
-
-void Monitor::take(std::span<const estimation::TimedSample> samples,
-                   std::span<const sensor::Estimate<double>> answers) {
-  if (samples.size() != answers.size()) throw std::invalid_argument("as many answers as samples are needed");
-  for (std::size_t k = 0; k < samples.size(); ++k) take(samples[k], answers[k]);
 }
 
 void Monitor::take(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer,

@@ -9,6 +9,7 @@
 ///     const monitor::MonitorState kept = watch.state();        // trivially copyable: keep its bytes
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 #include "spoolflow/estimation/running_sensor.hpp"
@@ -53,9 +54,14 @@ class Monitor {
   explicit Monitor(const model::Model& model, const Options& options = {},
                    const std::optional<Baseline>& baseline = {});
 
-  /// The next samples and the observer's answers to them, equally many. Samples that the sensor held are counted by
-  /// their status and identify nothing else. Throws std::invalid_argument where their numbers differ.
-  void take(std::span<const estimation::TimedSample> samples, std::span<const sensor::Estimate<double>> answers);
+  /// The next samples, as a span or as estimation::Columns, and the observer's answers to them, equally many. Samples
+  /// that the sensor held are counted by their status and identify nothing else. Throws std::invalid_argument where
+  /// their numbers differ.
+  template <class Samples>
+  void take(const Samples& samples, std::span<const sensor::Estimate<double>> answers) {
+    if (samples.size() != answers.size()) throw std::invalid_argument("as many answers as samples are needed");
+    for (std::size_t k = 0; k < answers.size(); ++k) take(samples[k], answers[k]);
+  }
   /// `position_set_m`: the command of that instant, in the position's signs; NaN: not known.
   void take(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer,
             double position_set_m = estimation::not_measured);

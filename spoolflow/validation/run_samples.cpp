@@ -79,8 +79,7 @@ RunSamples estimate_run(const model::Model& model, const std::filesystem::path& 
     for (std::size_t s = 0; s < sensors.size(); ++s) {
       estimation::run(sensors[s], columns, estimates);
       append(run.answers[s], estimates);
-      if (estimators[s] != estimation::Estimator::observer) continue;
-      for (std::size_t k = 0; k < block.rows; ++k) watch->take(columns[k], estimates[k]);
+      if (estimators[s] == estimation::Estimator::observer) watch->take(columns, estimates);
     }
     run.means.take(block);
     append(run.time_s, block, Channel::time);
