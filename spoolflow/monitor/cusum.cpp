@@ -1,5 +1,6 @@
 #include "spoolflow/monitor/cusum.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -19,15 +20,15 @@ double average_run_length(double allowance, double limit, double mean, int state
   // State 0 is the empty sum, the others are equal cells up to the limit. Solves (1 - P) L = 1 by elimination.
   const auto n = static_cast<std::size_t>(states);
   const double width = 2 * limit / (2 * static_cast<double>(states) - 1);
+  std::vector<double> below(2 * n);  // [n + d]: the next sum lies below the upper end of the cell d above this state
+  for (std::size_t k = 0; k < 2 * n; ++k)
+    below[k] = normal_below((static_cast<double>(k) - static_cast<double>(n) + 0.5) * width + allowance - mean);
   std::vector<double> matrix(n * n);
   std::vector<double> length(n, 1.0);
   for (std::size_t from = 0; from < n; ++from) {
-    const double at = static_cast<double>(from) * width;
     for (std::size_t to = 0; to < n; ++to) {
-      const double centre = static_cast<double>(to) * width - at + allowance - mean;
-      const double upper = normal_below(centre + 0.5 * width);
-      const double lower = to == 0 ? 0.0 : normal_below(centre - 0.5 * width);
-      matrix[from * n + to] = (from == to ? 1.0 : 0.0) - (upper - lower);
+      const std::size_t upper = n + to - from;
+      matrix[from * n + to] = (from == to ? 1.0 : 0.0) - (below[upper] - (to == 0 ? 0.0 : below[upper - 1]));
     }
   }
   for (std::size_t k = 0; k < n; ++k) {
@@ -50,9 +51,14 @@ double single_limit_for(double run_length) {
 }
 
 double limit_for(double allowance, double run_length) {
-  constexpr int halvings = 40;  // each solves a chain
-  const auto length = [allowance](double limit) { return average_run_length(allowance, limit); };
-  return numerics::crossing({0.1, 30}, run_length, length, halvings);
+  constexpr int steps = 6;
+  constexpr double least_limit = 0.1;
+  double limit = 1;  // where it is large, the run length goes with exp(2 allowance limit)
+  for (int step = 0; step < steps; ++step) {
+    const double ratio = run_length / average_run_length(allowance, limit);
+    limit = std::max(least_limit, limit + std::log(ratio) / (2 * allowance));
+  }
+  return limit;
 }
 
 }  // namespace spoolflow::monitor

@@ -173,7 +173,7 @@ Limits reckoned_limits(double false_alarms_per_year) {
 
 Limits limits_for(double false_alarms_per_year) {
   constexpr double usual = 1;
-  static const Limits usual_limits = reckoned_limits(usual);  // twenty milliseconds, once for all valves
+  static const Limits usual_limits = reckoned_limits(usual);  // once for all valves
   return false_alarms_per_year == usual ? usual_limits : reckoned_limits(false_alarms_per_year);
 }
 
