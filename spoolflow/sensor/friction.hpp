@@ -58,10 +58,11 @@ inline constexpr double engagement_memory_s = 0.02;
 inline constexpr double engagement_certainty = 0.8;
 /// What is left of the contact's stiffness at the limit of sticking, as a share of it.
 inline constexpr double least_stiffness_share = 0.1;
+/// Contacts that creep so far [m] have lost half of their rest; Dieterich's critical slip distance, 1 to 20 um on
+/// metal.
+inline constexpr double contact_memory_m = 1e-5;
 /// Standard deviations of pre-sliding friction by which friction at rest may exceed the sticking limit.
 inline constexpr double sticking_limit_deviations = 2;
-/// A longer rest [s] says no more; in single precision time steps of 50 us still add up to it.
-inline constexpr double longest_rest_s = 500;
 /// The time at rest divides [s].
 inline constexpr double least_rest_s = 1e-9;
 /// For so long [s] after the first sample no break-away counts: how long the spool had rested before is not known.
@@ -136,9 +137,9 @@ template <class T>
 SPOOLFLOW_INLINE constexpr void engage(FrictionState<T>& state, T moved_m, T deadband_m) {
   const bool goes_on = !(moved_m * state.engaged_m < T(0));
   state.engaged_m = moved_m + (goes_on ? state.engaged_m : T(0));
-  const T size2 = squared(state.engaged_m);
+  const T signed2 = state.engaged_m * magnitude(state.engaged_m);
   const T doubtful2 = squared(T(doubtful_engagement_deadbands) * deadband_m);
-  state.engagement = (state.engaged_m < T(0) ? T(-1) : T(1)) * size2 / larger(size2 + doubtful2, T(1e-30));
+  state.engagement = signed2 / larger(magnitude(signed2) + doubtful2, T(1e-30));
 }
 
 /// Without displacement it is less and less known at which end of its backlash the sensor lies.
@@ -161,7 +162,7 @@ SPOOLFLOW_INLINE constexpr void displace(const FrictionParameters<T>& friction, 
 template <class T>
 SPOOLFLOW_INLINE constexpr void follow_displacement(const FrictionParameters<T>& friction, FrictionState<T>& state,
                                                     const Contact<T>& contact, T position_m, T time_step_s) {
-  state.rest_s = smaller(state.rest_s + time_step_s, T(longest_rest_s));
+  state.rest_s += time_step_s;
   const T smoothing_s = T(presliding_smoothing_s) + time_step_s;
   const T averaged_s = likely(smoothing_s < state.rest_s) ? smoothing_s : larger(state.rest_s, T(least_rest_s));
   state.smooth_m += time_step_s / averaged_s * (position_m - state.smooth_m);
@@ -173,10 +174,15 @@ SPOOLFLOW_INLINE constexpr void follow_displacement(const FrictionParameters<T>&
   } else if (!contact.creeps) {
     forget_engagement(state, time_step_s);
   }
-  // A spool that moves the sensor is at that end of its backlash, and holds no more than the contact bears.
-  const T most_N = contact.sticking_N - contact.half_width_N;
-  if (unlikely(magnitude(state.presliding_N) > most_N))
-    state.presliding_N = limited_size(state.presliding_N, at_least_zero(most_N));
+  // A spool that moves the sensor is at that end of its backlash, and holds no more than the contact bears; beyond that
+  // it creeps, which makes the contacts young again.
+  const T most_N = at_least_zero(contact.sticking_N - contact.half_width_N);
+  const T beyond_N = magnitude(state.presliding_N) - most_N;
+  if (unlikely(beyond_N > T(0))) {
+    const T memory_N = T(contact_memory_m) * friction.contact_stiffness_N_per_m;
+    state.rest_s *= memory_N / (memory_N + beyond_N);
+    state.presliding_N = limited_size(state.presliding_N, most_N);
+  }
 }
 
 /// In motion: friction is that of sliding, or in a slip what the forces leave; from there the next rest begins.
