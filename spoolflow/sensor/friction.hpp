@@ -58,8 +58,8 @@ inline constexpr double engagement_memory_s = 0.02;
 inline constexpr double engagement_certainty = 0.8;
 /// What is left of the contact's stiffness at the limit of sticking, as a share of it.
 inline constexpr double least_stiffness_share = 0.1;
-/// Contacts that creep so far [m] have lost half of their rest; Dieterich's critical slip distance, 1 to 20 um on
-/// metal.
+/// Contacts whose pre-sliding displacement goes on beyond their limit by this length [m] have lost half of their age;
+/// critical slip distance of Dieterich (1979), 1 to 20 um on metal.
 inline constexpr double contact_memory_m = 1e-5;
 /// Standard deviations of pre-sliding friction by which friction at rest may exceed the sticking limit.
 inline constexpr double sticking_limit_deviations = 2;

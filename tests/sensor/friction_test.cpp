@@ -96,6 +96,25 @@ TEST_P(Friction, IsFollowedAcrossItsWidthByThePreSlidingDisplacement) {
   EXPECT_GT(held, 0.95 * samples);
 }
 
+TEST_P(Friction, OfContactsThatCreepOnIsThatOfYoungOnes) {
+  // Aged contacts are loaded to their limit, and the spool crawls on from there.
+  const auto aged_share_after = [&](double creep_m) {
+    stop_after(1);
+    const auto aged_N = [&] {
+      const FrictionBounds<double> bounds = friction_bounds(contact, state, spool_N, armature_N);
+      return bounds.sticking_N - bounds.sliding_N;
+    };
+    for (double time_s = 0; time_s < 10; time_s += GetParam()) sample(Motion::rest, 1e-3, spool_N + armature_N);
+    const double rested_N = aged_N();
+    constexpr double creeps_s = 1;
+    for (double time_s = 0; time_s < creeps_s; time_s += GetParam())
+      sample(Motion::rest, 1e-3 + creep_m * time_s / creeps_s, spool_N + armature_N);
+    return aged_N() / rested_N;
+  };
+  EXPECT_GT(aged_share_after(0.5e-6), 0.95);
+  EXPECT_LT(aged_share_after(200e-6), 0.3);
+}
+
 TEST_P(Friction, IsNotMovedByNoiseThatTheTrackHasLearntOf) {
   const double friction_N = 0.5 * (spool_N + armature_N);
   const auto moved_N = [&] {
