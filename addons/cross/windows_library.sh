@@ -16,7 +16,7 @@ for library in nlohmann fmt; do
 done
 cd "$folder"
 for part in export/c_interface/sensor_functions export/c_interface/status_text model/json_text model/json_node \
-  model/model_limits model/read_model estimation/running_sensor; do
+  model/file_section model/model_file model/model_limits estimation/running_sensor; do
   x86_64-w64-mingw32-g++-posix -std=c++20 -O2 -Wall -Wextra -Werror -DSPOOLFLOW_BUILDS_DLL -DFMT_HEADER_ONLY "-ffile-prefix-map=$root=." \
     "-DSPOOLFLOW_BUILT_VERSION=\"$version\"" -I"$root" -isystem headers -c "$root/spoolflow/$part.cpp" -o "$(basename $part).o"
 done

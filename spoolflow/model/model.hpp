@@ -68,6 +68,7 @@ struct Instruments {
   std::optional<double> force_N;
   std::optional<double> pressure_Pa;
   std::optional<double> temperature_K;
+  bool operator==(const Instruments&) const = default;
 };
 
 struct Range {
