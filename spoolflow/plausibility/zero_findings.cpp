@@ -11,6 +11,7 @@
 #include "spoolflow/plausibility/limits.hpp"
 #include "spoolflow/plausibility/position_zero.hpp"
 #include "spoolflow/plausibility/relation.hpp"
+#include "spoolflow/plausibility/run_relations.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::plausibility {
@@ -21,20 +22,6 @@ using recording::Recording;
 
 void take_off(Recording& means, double offset_m) {
   for (double& position_m : means.column(Channel::position)) position_m -= offset_m;
-}
-
-/// Rows that open to one side (+1, -1), in that side's signs.
-Recording opened_to(const Recording& run, int side) {
-  Recording out{run.file, {}};
-  const std::vector<double>& position_m = run.column(Channel::position);
-  for (const Channel channel : {Channel::time, Channel::position, Channel::flow, Channel::pressure_difference}) {
-    if (!run.has(channel)) continue;
-    const int sign = channel == Channel::position || channel == Channel::flow ? side : 1;
-    for (std::size_t k = 0; k < run.size(); ++k) {
-      if (side * position_m[k] > 0) out.column(channel).push_back(sign * run.column(channel)[k]);
-    }
-  }
-  return out;
 }
 
 /// Where a spool rests, if it is not at zero. Beyond a tenth of the stroke it rests elsewhere by its design.
@@ -134,7 +121,7 @@ std::vector<Finding> run_zero_findings(Recording& run, std::span<const KnownValv
   std::vector<Finding> out;
   for (const int side : both ? std::vector{1, -1} : std::vector{1}) {
     const KnownValve& known = valve[side > 0 ? 0 : 1];
-    const auto found = misplaced_zero(known.opening, both ? opened_to(run, side) : run, stroke_m);
+    const auto found = misplaced_zero(known.opening, both ? one_side(run, side) : run, stroke_m);
     if (!found) continue;
     std::string text = shown(*found, !both      ? "in the axial-force maps"
                                      : side > 0 ? "in the axial-force maps of P to B (opening > 0)"
