@@ -1,11 +1,10 @@
 #include "spoolflow/calibration/fits/armature_friction.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "spoolflow/calibration/fits/bench_strokes.hpp"
 #include "spoolflow/calibration/fits/both_directions.hpp"
+#include "spoolflow/calibration/fits/flux_evidence.hpp"
 #include "spoolflow/calibration/fits/map_residuals.hpp"
 #include "spoolflow/calibration/numerics/fitted_parameters.hpp"
 #include "spoolflow/calibration/numerics/interpolation.hpp"
@@ -17,21 +16,6 @@ namespace {
 
 constexpr int rows = sensor::force_map_currents;
 constexpr int columns = sensor::force_map_positions;
-
-/// The magnetising current at each sample.
-std::vector<double> follow(const SolenoidSamples& samples, const sensor::Coil<double>& coil) {
-  sensor::CoilState<double> state;
-  std::vector<double> out;
-  out.reserve(samples.size());
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    const auto& sample = samples.samples[k];
-    const auto position =
-        sensor::locate<sensor::flux_map_positions>(coil.flux_linkage.map.column_axis, sample.position_m);
-    sensor::follow_current(coil, state, {sample.time_step_s, sample.current_A}, position, samples.restarts[k] != 0);
-    out.push_back(state.magnetising_current_A);
-  }
-  return out;
-}
 
 /// Columns known at the held currents onto the map's rows; below the first current the trend of the first two goes on.
 void over_rows(FrictionMap& map, const std::vector<double>& currents_A, const std::vector<std::vector<double>>& known) {
@@ -105,7 +89,7 @@ ArmatureFrictionFit fit_armature_friction(const SolenoidSamples& samples, const 
   const auto& force_map = fit.magnetic_force.map;
   fit.friction_N.row_axis = force_map.row_axis;
   fit.friction_N.column_axis = force_map.column_axis;
-  const std::vector<double> magnetising_A = follow(samples, coil);
+  const std::vector<double> magnetising_A = magnetising_currents_A(samples, coil);
 
   std::vector<double> position_m;
   std::vector<double> current_A;

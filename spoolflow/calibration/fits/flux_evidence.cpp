@@ -45,4 +45,18 @@ FluxEvidence evidence_from_current(const SolenoidSamples& samples) {
   return out;
 }
 
+std::vector<double> magnetising_currents_A(const SolenoidSamples& samples, const sensor::Coil<double>& coil) {
+  sensor::CoilState<double> state;
+  std::vector<double> out;
+  out.reserve(samples.size());
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const auto& sample = samples.samples[k];
+    const auto position =
+        sensor::locate<sensor::flux_map_positions>(coil.flux_linkage.map.column_axis, sample.position_m);
+    sensor::follow_current(coil, state, {sample.time_step_s, sample.current_A}, position, samples.restarts[k] != 0);
+    out.push_back(state.magnetising_current_A);
+  }
+  return out;
+}
+
 }  // namespace spoolflow::calibration

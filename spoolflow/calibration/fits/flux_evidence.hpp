@@ -1,9 +1,10 @@
 #pragma once
-/// What a solenoid's bench recordings determine of the magnetising current before hysteresis and eddy currents are
-/// known.
+/// The magnetising current of a solenoid's recordings: what they determine of it before hysteresis and eddy currents
+/// are known, and what a coil makes of it.
 #include <vector>
 
 #include "spoolflow/calibration/fits/solenoid_samples.hpp"
+#include "spoolflow/sensor/coil.hpp"
 #include "spoolflow/sensor/force_maps.hpp"
 
 namespace spoolflow::calibration {
@@ -24,5 +25,9 @@ struct FluxEvidence {
 /// While everything moves slowly, the coil current is the magnetising current but for the static hysteresis, which
 /// strokes both ways average out.
 [[nodiscard]] FluxEvidence evidence_from_current(const SolenoidSamples& samples);
+
+/// What the coil's hysteresis and eddy currents leave of the current of each sample [A].
+[[nodiscard]] std::vector<double> magnetising_currents_A(const SolenoidSamples& samples,
+                                                         const sensor::Coil<double>& coil);
 
 }  // namespace spoolflow::calibration

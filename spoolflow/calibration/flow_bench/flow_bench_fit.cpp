@@ -47,21 +47,6 @@ std::vector<double> current_at_instants(const SolenoidSamples& coil) {
   return out;
 }
 
-/// The magnetising current of each sample.
-std::vector<double> magnetise(const TrackedRun& run, const sensor::Coil<double>& coil) {
-  sensor::CoilState<double> state;
-  std::vector<double> out;
-  out.reserve(run.coil.size());
-  for (std::size_t k = 0; k < run.coil.size(); ++k) {
-    const auto& sample = run.coil.samples[k];
-    const auto position =
-        sensor::locate<sensor::flux_map_positions>(coil.flux_linkage.map.column_axis, sample.position_m);
-    sensor::follow_current(coil, state, {sample.time_step_s, sample.current_A}, position, k == 0);
-    out.push_back(state.magnetising_current_A);
-  }
-  return out;
-}
-
 std::vector<double> at_samples(const std::vector<SlidingSample>& samples, const std::vector<double>& magnetising_A) {
   std::vector<double> out;
   for (const SlidingSample& sample : samples) out.push_back(magnetising_A[sample.sample]);
@@ -72,7 +57,7 @@ std::vector<RunForces> forces_of(const std::vector<TrackedRun>& runs, const Coil
                                  const FluxLinkageFit& flux_linkage, double largest_A) {
   std::vector<RunForces> out;
   for (const TrackedRun& run : runs) {
-    const std::vector<double> current_A = magnetise(run, coil_of(sizes, flux_linkage, largest_A));
+    const std::vector<double> current_A = magnetising_currents_A(run.coil, coil_of(sizes, flux_linkage, largest_A));
     RunForces forces{&run, &run.sliding, at_samples(run.sliding, current_A), {}, {}};
     forces.per_size.resize(forces.magnetising_A.size());
     for (std::size_t n = 0; n < coil_sizes; ++n) {
@@ -80,7 +65,7 @@ std::vector<RunForces> forces_of(const std::vector<TrackedRun>& runs, const Coil
       const double step = 0.2 * usual_coil_deviation[n];
       turned[n] += step;
       const std::vector<double> other =
-          at_samples(run.sliding, magnetise(run, coil_of(turned, flux_linkage, largest_A)));
+          at_samples(run.sliding, magnetising_currents_A(run.coil, coil_of(turned, flux_linkage, largest_A)));
       for (std::size_t k = 0; k < other.size(); ++k)
         forces.per_size[k][n] = (other[k] - forces.magnetising_A[k]) / step;
     }
@@ -180,7 +165,7 @@ void fit_other_forces(FlowBenchFit& out, ForcePriors priors, const std::vector<T
   priors.mean_travel_m = 1e-4;
   std::vector<RunForces> forces;
   for (const TrackedRun& run : runs) {
-    RunForces each{&run, &run.passing, at_samples(run.passing, magnetise(run, out.coil)), {}, {}};
+    RunForces each{&run, &run.passing, at_samples(run.passing, magnetising_currents_A(run.coil, out.coil)), {}, {}};
     each.per_size.resize(each.magnetising_A.size());
     for (std::size_t k = 0; measured != nullptr && k < run.passing.size(); ++k)
       each.armature_friction_N.push_back(
@@ -239,7 +224,7 @@ void fit_with_coil(FlowBenchFit& out, ForcePriors priors, const std::vector<Trac
     }
     out.coil = coil_of(out.coil_sizes, out.flux_linkage, largest_A);
     out.magnetic_force = corrected_map(out.layout, coenergy_force, out.forces.unknowns);
-    for (std::size_t r = 0; r < runs.size(); ++r) current_A[r] = magnetise(runs[r], out.coil);
+    for (std::size_t r = 0; r < runs.size(); ++r) current_A[r] = magnetising_currents_A(runs[r].coil, out.coil);
   }
   // Only a spool that slides evenly shows the coil: sticking and slipping would pass for hysteresis.
   const ForceSolution evenly = std::move(out.forces);
