@@ -102,8 +102,6 @@ MagneticForceFit fit_magnetic_force(const recording::Recording& recording, doubl
                     "the whole stroke at every current",
                     file, 1e3 * range.lowest_m, 1e3 * range.highest_m, 1e3 * stroke_m));
   }
-  fit.lowest_position_m = range.lowest_m;
-  fit.highest_position_m = range.highest_m;
   const std::vector<double> grid_m = equally_spaced(range.lowest_m, range.highest_m, sensor::force_map_positions);
 
   std::vector<BothDirections> forces;

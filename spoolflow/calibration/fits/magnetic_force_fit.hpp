@@ -12,8 +12,6 @@ struct MagneticForceFit {
   sensor::MagneticForce<double> magnetic_force;
   std::vector<model::MagneticForceLoop> loops;  ///< rising current
   double largest_current_A;
-  double lowest_position_m;
-  double highest_position_m;
   FitResidual residual;  ///< of the samples about map plus or minus half width [N]
 };
 

@@ -214,7 +214,7 @@ void fit_with_coil(FlowBenchFit& out, ForcePriors priors, const std::vector<Trac
     if (flux_round > 0 && flux_linkage.residual.rms() > out.flux_linkage.residual.rms()) break;
     out.flux_linkage = std::move(flux_linkage);
     const sensor::MagneticForce<double> coenergy_force = force_of_coenergy(out.flux_linkage.flux_linkage);
-    for (int round = 0; round < coil_rounds; ++round, ++out.rounds) {
+    for (int round = 0; round < coil_rounds; ++round) {
       const std::vector<RunForces> forces = forces_of(runs, out.coil_sizes, out.flux_linkage, largest_A);
       out.forces = solve_forces(out.layout, priors, coenergy_force, forces, out.coil_sizes, out.forces.unknowns);
       for (int n = 0; n < coil_sizes; ++n) {
@@ -249,8 +249,7 @@ FlowBenchFit fit_flow_bench(const FlowBenchRecordings& recordings, const Measure
       {},
       {},
       {},
-      {},
-      0};
+      {}};
   ForcePriors priors;
   priors.measured = at_knots(measured, out.layout);
   if (!priors.measured.empty()) priors.map_share = coenergy_scale_95;

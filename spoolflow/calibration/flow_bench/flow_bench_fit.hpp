@@ -21,7 +21,6 @@ struct FlowBenchFit {
   sensor::Coil<double> coil;
   sensor::MagneticForce<double> magnetic_force;  ///< over magnetising current
   CoilSizes coil_sizes{};
-  int rounds = 0;  ///< of the coil
 };
 
 /// What was measured stays as it was, and narrows the rest. Throws CalibrationError where no recording has a voltage
