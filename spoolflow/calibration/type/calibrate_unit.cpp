@@ -5,7 +5,6 @@
 #include <deque>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "spoolflow/calibration/completeness.hpp"
 #include "spoolflow/calibration/environment.hpp"
@@ -29,24 +28,17 @@ namespace {
 /// The direction of a run of the whole valve.
 constexpr const char* through_centre = "both";
 
-Deviations deviations_from(const Eigen::VectorXd& mean) {
-  Deviations out{};
-  for (std::size_t k = 0; k < variations; ++k) out[k] = mean(static_cast<Eigen::Index>(k));
-  return out;
-}
-
 /// Each direction beside the type: how far the fit moved, over how far units of the type lie.
 std::vector<UnitParameter> compared(const UnitFit& fit, const KnownDeviations& type, const Deviations& tolerances) {
   std::vector<UnitParameter> out;
   for (std::size_t k = 0; k < variations; ++k) {
-    const auto row = static_cast<Eigen::Index>(k);
     const VariationAbout& about = all_variations()[k];
-    const double prior2 = type.covariance(row, row), left2 = fit.known.covariance(row, row);
-    const double moved = fit.known.mean(row) - type.mean(row);
+    const double prior2 = type.covariance(k, k), left2 = fit.known.covariance(k, k);
+    const double moved = fit.known.mean(k) - type.mean(k);
     const bool seen = left2 < unseen_share * unseen_share * prior2;
     const double deviations = moved / std::sqrt(prior2);
-    out.push_back({std::string(about.name), std::string(about.unit), tolerances[k], fit.known.mean(row),
-                   std::sqrt(left2), deviations, seen, std::abs(deviations) > marginal_deviations});
+    out.push_back({std::string(about.name), std::string(about.unit), tolerances[k], fit.known.mean(k), std::sqrt(left2),
+                   deviations, seen, std::abs(deviations) > marginal_deviations});
   }
   return out;
 }
@@ -122,7 +114,7 @@ UnitCalibration of_direction(const model::Model& type, const std::string& type_f
   for (const UnitParameter& parameter : out.parameters) out.chi_square += parameter.deviations * parameter.deviations;
   out.refusal = refusal_of(out, unit.file, type.type->name);
   if (!out.refusal.empty()) return out;
-  const Deviations deviations = deviations_from(fit.known.mean);
+  const Deviations deviations = fit.known.mean;
   out.model.observer->parameters = unit_parameters(type.observer->parameters, deviations);
   out.model.condensed.parameters = unit_parameters(type.condensed.parameters, deviations);
   out.model.type = type_section(type.type->name, true, tolerances, fit.known, type.type->environment);

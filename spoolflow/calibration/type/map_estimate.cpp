@@ -17,7 +17,7 @@ constexpr std::array<double, unit_unknowns - variations - 1> beside_meter_gain{
 
 UnitUnknowns unknowns_from(const Eigen::VectorXd& x) {
   UnitUnknowns out;
-  for (std::size_t k = 0; k < variations; ++k) out.deviations[k] = x(static_cast<Eigen::Index>(k));
+  out.deviations = x.head(deviating);
   out.meter_gain = x(deviating);
   out.ageing = x(deviating + 1);
   out.unloaded_friction_N = x(deviating + 2);
@@ -77,12 +77,7 @@ Eigen::MatrixXd slopes(const UnitEvidence& evidence, const Eigen::VectorXd& x, c
 }  // namespace
 
 KnownDeviations spread_of(const Deviations& tolerances) {
-  KnownDeviations out{Eigen::VectorXd::Zero(deviating), Eigen::MatrixXd::Zero(deviating, deviating)};
-  for (Eigen::Index k = 0; k < deviating; ++k) {
-    const double tolerance = tolerances[static_cast<std::size_t>(k)];
-    out.covariance(k, k) = tolerance * tolerance;
-  }
-  return out;
+  return {Eigen::VectorXd::Zero(deviating), Eigen::MatrixXd(tolerances.cwiseAbs2().asDiagonal())};
 }
 
 UnitFit most_likely_unit(const UnitEvidence& evidence, const KnownDeviations& known) {

@@ -115,8 +115,8 @@ class Planner {
     for (const int direction : {1, -1}) {
       const Eigen::MatrixXd force_N = force_rows(slopes, unit().friction.operation_ratio, direction);
       for (Eigen::Index p = 0; p < count; ++p) {
-        const OperatingPoint& point = points[static_cast<std::size_t>(p)];
-        const double conductance = slopes.here[static_cast<std::size_t>(p)].conductance;
+        const OperatingPoint& point = points[p];
+        const double conductance = slopes.here[p].conductance;
         const double root = std::sqrt(point.pressure_Pa), flow_m3_per_s = conductance * root;
         const double per_Pa_N = unit()
                                     .edge.at(unit().edge.temperature_K.at(1), point.pressure_Pa, point.position_m)
@@ -132,8 +132,7 @@ class Planner {
   /// Position at the closed end, and the coil's resistance over whole strokes.
   [[nodiscard]] Eigen::MatrixXd at_rest() const {
     Eigen::MatrixXd out = Eigen::MatrixXd::Zero(searched, searched);
-    const auto zero = static_cast<Eigen::Index>(at(Variation::position_zero));
-    const auto resistance = static_cast<Eigen::Index>(at(Variation::resistance));
+    const std::size_t zero = at(Variation::position_zero), resistance = at(Variation::resistance);
     out(zero, zero) = 1 / (closed_reading_uncertainty_m * closed_reading_uncertainty_m);
     out(resistance, resistance) = 1 / (resistance_uncertainty_share * resistance_uncertainty_share);
     return out;
@@ -151,10 +150,10 @@ class Planner {
     const double force_N = force_row_uncertainty_N(type_), flow_m3_per_s = flow_row_uncertainty_m3_per_s(type_);
     Eigen::MatrixXd out = Eigen::MatrixXd::Zero(searched, searched);
     for (const int direction : {1, -1}) {
-      Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(points.size()), searched);
+      Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(points.size(), searched);
       rows.leftCols(deviating) = force_rows(slopes, unit().friction.operation_ratio, direction);
       for (std::size_t p = 0; p < points.size(); ++p) {
-        rows(static_cast<Eigen::Index>(p), friction_tilt) = -direction * (2 * points[p].position_m / stroke_m - 1);
+        rows(p, friction_tilt) = -direction * (2 * points[p].position_m / stroke_m - 1);
       }
       if (pressure_share < unloaded_share) rows.col(friction_left).setConstant(-direction);
       if (speed_m_per_s < fastest_sliding_m_per_s) out += rows.transpose() * rows / (force_N * force_N);
@@ -162,7 +161,7 @@ class Planner {
       for (std::size_t p = 0; p < points.size(); ++p) {
         if (points[p].position_m < unit().closed_below_m) continue;
         Eigen::VectorXd row = Eigen::VectorXd::Zero(searched);
-        row.head(deviating) = std::sqrt(pressure_Pa) * slopes.conductance.row(static_cast<Eigen::Index>(p));
+        row.head(deviating) = std::sqrt(pressure_Pa) * slopes.conductance.row(p);
         row(gain) = std::sqrt(pressure_Pa) * slopes.here[p].conductance;
         row(tilt) = row(gain) * (2 * points[p].position_m / stroke_m - 1);
         out += row * row.transpose() / (flow_m3_per_s * flow_m3_per_s);

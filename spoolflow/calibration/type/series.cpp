@@ -68,19 +68,18 @@ Slope slope_of(const std::vector<const SeriesUnit*>& units, std::size_t k) {
 SeriesParameter parameter_of(const Series& series, const std::vector<const SeriesUnit*>& of_type, std::size_t k,
                              const KnownDeviations& type) {
   const VariationAbout& about = all_variations()[k];
-  const auto row = static_cast<Eigen::Index>(k);
-  const double tolerance = std::sqrt(type.covariance(row, row));
+  const double tolerance = std::sqrt(type.covariance(k, k));
   SeriesParameter out{
       std::string(about.name), std::string(about.unit), tolerance, NAN, NAN, NAN, 0, NAN, NAN, NAN, false};
   out.seen = static_cast<std::size_t>(
       std::ranges::count_if(of_type, [k](const SeriesUnit* unit) { return unit->parameters[k].seen; }));
   if (!series.population || out.seen == 0) return out;
   const Population& population = *series.population;
-  out.mean = population.of.mean(row);
-  out.spread = std::sqrt(population.of.covariance(row, row));
-  out.mean_uncertainty = std::sqrt(population.open(row, row));
+  out.mean = population.of.mean(k);
+  out.spread = std::sqrt(population.of.covariance(k, k));
+  out.mean_uncertainty = std::sqrt(population.open(k, k));
   if (of_type.size() >= least_for_capability)
-    out.capability = (capability_deviations * tolerance - std::abs(out.mean - type.mean(row))) / (3 * out.spread);
+    out.capability = (capability_deviations * tolerance - std::abs(out.mean - type.mean(k))) / (3 * out.spread);
   if (of_type.size() < least_for_drift) return out;
   const Slope slope = slope_of(of_type, k);
   out.drift_per_serial = slope.per_serial;
@@ -139,13 +138,8 @@ model::Model updated_type(const model::Model& type, const Series& series) {
                     least_in_series, of_type, series.units.size()));
   }
   const Population& population = *series.population;
-  Deviations middle{}, spread{};
   const Eigen::MatrixXd next = population.of.covariance + population.open;
-  for (std::size_t k = 0; k < variations; ++k) {
-    const auto row = static_cast<Eigen::Index>(k);
-    middle[k] = population.of.mean(row);
-    spread[k] = std::sqrt(next(row, row));
-  }
+  const Deviations middle = population.of.mean, spread = next.diagonal().cwiseSqrt();
   const KnownDeviations known{Eigen::VectorXd::Zero(deviating), next};
   model::Model out = type;
   out.observer->parameters = unit_parameters(type.observer->parameters, middle);

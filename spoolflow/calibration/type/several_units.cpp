@@ -19,15 +19,6 @@ namespace {
 
 using Parameters = sensor::ObserverParameters<double>;
 
-Eigen::VectorXd vector_of(const Deviations& deviations) {
-  return Eigen::Map<const Eigen::VectorXd>(deviations.data(), deviating);
-}
-Deviations deviations_of(const Eigen::VectorXd& values) {
-  Deviations out{};
-  std::copy(values.begin(), values.end(), out.begin());
-  return out;
-}
-
 /// By a load cell or a force rig, and not inferred from the coil's coenergy.
 bool newtons_measured(const model::Model& unit) {
   return std::ranges::none_of(unit.provenance.quantities, [](const model::KnownQuantity& each) {
@@ -52,16 +43,16 @@ UnitLikelihood likelihood_of(const TableComparison& comparison, const KnownDevia
   Eigen::VectorXd x = prior.mean;
   UnitLikelihood out;
   for (int round = 0; round < rounds; ++round) {
-    const Eigen::VectorXd left = comparison.rows(deviations_of(x));
+    const Eigen::VectorXd left = comparison.rows(x);
     Eigen::MatrixXd slope(left.size(), deviating);
     for (Eigen::Index k = 0; k < deviating; ++k) {
       constexpr double share = 0.1;
       const double step = share * std::sqrt(prior.covariance(k, k));
       Eigen::VectorXd turned = x;
       turned(k) += step;
-      slope.col(k) = (comparison.rows(deviations_of(turned)) - left) / step;
+      slope.col(k) = (comparison.rows(turned) - left) / step;
     }
-    slope.col(static_cast<Eigen::Index>(at(Variation::position_zero))).setZero();
+    slope.col(at(Variation::position_zero)).setZero();
     const Eigen::VectorXd weights = comparison.weights(round < searching ? Eigen::VectorXd::Zero(left.size()) : left);
     out.precision = slope.transpose() * weights.asDiagonal() * slope;
     out.weighted = out.precision * x - slope.transpose() * weights.asDiagonal() * left;
@@ -116,11 +107,10 @@ void require_each_once(const std::vector<model::Model>& units, const std::vector
 void require_one_type(const std::vector<model::Model>& units, const Population& middle, const Deviations& tolerances) {
   for (std::size_t unit = 0; unit < units.size(); ++unit) {
     for (std::size_t k = 0; k < variations; ++k) {
-      const auto row = static_cast<Eigen::Index>(k);
       double others = 0;  // a unit far out draws the mean towards itself
       for (std::size_t other = 0; other < units.size(); ++other)
-        others += other == unit ? 0 : middle.units[other](row) / static_cast<double>(units.size() - 1);
-      const double off = (middle.units[unit](row) - others) / tolerances[k];
+        others += other == unit ? 0 : middle.units[other](k) / static_cast<double>(units.size() - 1);
+      const double off = (middle.units[unit](k) - others) / tolerances[k];
       if (std::abs(off) <= foreign_deviations) continue;
       throw CalibrationError(fmt::format(
           "{} is not of one type with the others: its {} ({}) lies {:.1f} standard deviations from theirs, at most "
@@ -160,23 +150,18 @@ SeveralUnits compare_units(const std::vector<model::Model>& units, const Deviati
   require_one_type(units, middle, tolerances);
   SeveralUnits out{nearest_to(middle), {}, {}, {}};
   if (out.nearest != 0) middle = about(out.nearest);
-  out.middle = deviations_of(middle.of.mean);
+  out.middle = middle.of.mean;
   out.next.mean = Eigen::VectorXd::Zero(deviating);
   out.next.covariance = middle.of.covariance + middle.open;
   for (std::size_t k = 0; k < units.size(); ++k) {
     const TableComparison comparison = beside(units[out.nearest], units[k]);
-    out.units.push_back({units[k].valve.name, deviations_of(middle.units[k] - vector_of(out.middle)),
-                         comparison.force_left_N(deviations_of(middle.units[k]))});
+    out.units.push_back({units[k].valve.name, middle.units[k] - out.middle, comparison.force_left_N(middle.units[k])});
   }
   return out;
 }
 
 model::Model type_of(const std::vector<model::Model>& units, const SeveralUnits& compared) {
-  Deviations spread{};
-  for (std::size_t k = 0; k < variations; ++k) {
-    const auto row = static_cast<Eigen::Index>(k);
-    spread[k] = std::sqrt(compared.next.covariance(row, row));
-  }
+  const Deviations spread = compared.next.covariance.diagonal().cwiseSqrt();
   model::Model out = units[compared.nearest];
   out.valve.name = units.front().valve.name;
   out.observer->parameters = unit_parameters(out.observer->parameters, compared.middle);

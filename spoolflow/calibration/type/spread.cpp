@@ -33,27 +33,25 @@ KnownDeviations of_any_unit(KnownDeviations known) {
 
 KnownDeviations sliding_with_ageing(KnownDeviations known, const sensor::FrictionParameters<double>& friction) {
   Eigen::MatrixXd turned = Eigen::MatrixXd::Identity(deviating, deviating);
-  const auto ageing_time = static_cast<Eigen::Index>(at(Variation::ageing_time));
   for (const Variation part : {Variation::spool_friction, Variation::pressure_friction})
-    turned(static_cast<Eigen::Index>(at(part)), ageing_time) = -ageing_in_sliding(friction);
+    turned(at(part), at(Variation::ageing_time)) = -ageing_in_sliding(friction);
   known.covariance = turned * known.covariance * turned.transpose();
   return known;
 }
 
 UnitSpread spread_of(const sensor::ObserverParameters<double>& unit, const KnownDeviations& known) {
   const EffectSlopes slopes = effect_slopes(unit, operating_points(unit), known.covariance.diagonal().cwiseSqrt());
-  const auto points = static_cast<Eigen::Index>(slopes.here.size());
+  const std::size_t points = slopes.here.size();
   Eigen::VectorXd friction_N(points), conductance(points);
-  for (Eigen::Index p = 0; p < points; ++p) {
-    const UnitEffects& here = slopes.here[static_cast<std::size_t>(p)];
-    friction_N(p) = std::max(here.friction_N, 1e-6);
-    conductance(p) = std::max(here.conductance, 1e-15);
+  for (std::size_t p = 0; p < points; ++p) {
+    friction_N(p) = std::max(slopes.here[p].friction_N, 1e-6);
+    conductance(p) = std::max(slopes.here[p].conductance, 1e-15);
   }
   const auto count = static_cast<double>(points);
   // Of ageing() by the logarithm of its time: the most, after a rest of that time over the root of the ratio.
   const double root = std::sqrt(std::max(1.0, unit.friction.ageing_ratio)), per_time = (root - 1) / (root + 1);
-  const auto ageing_time = static_cast<Eigen::Index>(at(Variation::ageing_time));
-  return {std::sqrt(variance(slopes.force_N, Eigen::VectorXd::Ones(points), known) / count),
+  const std::size_t ageing_time = at(Variation::ageing_time);
+  return {std::sqrt(variance(slopes.force_N, Eigen::VectorXd::Ones(friction_N.size()), known) / count),
           std::sqrt(variance(slopes.friction_N, friction_N, known) / count),
           std::sqrt(variance(slopes.conductance, conductance, known) / count),
           per_time * std::sqrt(known.covariance(ageing_time, ageing_time))};

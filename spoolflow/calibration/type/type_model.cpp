@@ -79,7 +79,7 @@ model::TypeSection type_section(const std::string& type_name, bool unit, const D
   std::vector<double> values;
   for (std::size_t k = 0; k < variations; ++k) {
     names.emplace_back(all_variations()[k].name);
-    values.push_back(known.mean(static_cast<Eigen::Index>(k)));
+    values.push_back(known.mean(k));
   }
   const model::Fit fit = known_from("deviations", names, values, known.covariance);
   model::TypeSection out{type_name, unit, {}, fit.correlation, environment};
@@ -143,20 +143,18 @@ KnownDeviations known_of_type(const model::Model& model, const std::string& file
         model.type ? "one unit" : "one valve"));
   }
   const auto& deviations = model.type->deviations;
-  const auto count = static_cast<Eigen::Index>(variations);
-  KnownDeviations out{Eigen::VectorXd(count), Eigen::MatrixXd(count, count)};
+  KnownDeviations out{Eigen::VectorXd(deviating), Eigen::MatrixXd(deviating, deviating)};
   bool alike = deviations.size() == variations;
   for (std::size_t k = 0; alike && k < variations; ++k) alike = deviations[k].name == all_variations()[k].name;
   if (!alike) {
     throw CalibrationError(fmt::format(
         "{}: its type has other directions of variation than this program; make it again with --as-type", file));
   }
-  for (Eigen::Index r = 0; r < count; ++r) {
-    const model::UnitDeviation& row = deviations[static_cast<std::size_t>(r)];
-    out.mean(r) = row.value;
-    for (Eigen::Index c = 0; c < count; ++c) {
-      out.covariance(r, c) = row.uncertainty * deviations[static_cast<std::size_t>(c)].uncertainty *
-                             model.type->correlation[static_cast<std::size_t>(r * count + c)];
+  for (std::size_t r = 0; r < variations; ++r) {
+    out.mean(r) = deviations[r].value;
+    for (std::size_t c = 0; c < variations; ++c) {
+      out.covariance(r, c) =
+          deviations[r].uncertainty * deviations[c].uncertainty * model.type->correlation[r * variations + c];
     }
   }
   return out;

@@ -42,22 +42,21 @@ std::vector<OperatingPoint> operating_points(const sensor::ObserverParameters<do
 
 EffectSlopes effect_slopes(const sensor::ObserverParameters<double>& unit, const std::vector<OperatingPoint>& points,
                            const Eigen::VectorXd& deviation) {
-  const Eigen::MatrixXd empty(static_cast<Eigen::Index>(points.size()), deviating);
+  const Eigen::MatrixXd empty(points.size(), deviating);
   EffectSlopes out{{}, empty, empty, empty, empty};
   for (const OperatingPoint& point : points) out.here.push_back(effects_at(unit, point));
   constexpr double step = 0.2;
   for (Eigen::Index k = 0; k < deviating; ++k) {
     Deviations turned{};
     const double turn = step * std::max(deviation(k), 1e-9);
-    turned[static_cast<std::size_t>(k)] = turn;
+    turned[k] = turn;
     const sensor::ObserverParameters<double> other = unit_parameters(unit, turned);
     for (std::size_t p = 0; p < points.size(); ++p) {
       const UnitEffects &here = out.here[p], there = effects_at(other, points[p]);
-      const auto row = static_cast<Eigen::Index>(p);
-      out.force_N(row, k) = (there.force_N - here.force_N) / turn;
-      out.friction_N(row, k) = (there.friction_N - here.friction_N) / turn;
-      out.loop_N(row, k) = (there.loop_N - here.loop_N) / turn;
-      out.conductance(row, k) = (there.conductance - here.conductance) / turn;
+      out.force_N(p, k) = (there.force_N - here.force_N) / turn;
+      out.friction_N(p, k) = (there.friction_N - here.friction_N) / turn;
+      out.loop_N(p, k) = (there.loop_N - here.loop_N) / turn;
+      out.conductance(p, k) = (there.conductance - here.conductance) / turn;
     }
   }
   return out;

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include <Eigen/Core>
+
 namespace spoolflow::calibration {
 
 /// Directions of variation. Of the whole valve, as its own sensor reads it.
@@ -28,8 +30,13 @@ enum class Variation : unsigned char {
 };
 inline constexpr std::size_t variations = 16;
 
-/// One entry a direction: a share, metres for edge_position and position_zero, a natural logarithm for ageing_time.
-using Deviations = std::array<double, variations>;
+/// One entry a direction, 0 at first: a share, metres for edge_position and position_zero, a natural logarithm for
+/// ageing_time.
+struct Deviations : Eigen::Matrix<double, variations, 1> {
+  Deviations() { setZero(); }
+  template <class Vector>
+  Deviations(const Eigen::MatrixBase<Vector>& from) : Eigen::Matrix<double, variations, 1>(from) {}
+};
 
 /// What is known of a direction before a unit is measured.
 struct VariationAbout {
