@@ -9,6 +9,7 @@
 #include "spoolflow/calibration/fits/bench_strokes.hpp"
 #include "spoolflow/calibration/flow_bench/tracked_run.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
+#include "spoolflow/numerics/largest_magnitude.hpp"
 #include "spoolflow/numerics/median.hpp"
 
 namespace spoolflow::calibration {
@@ -41,14 +42,6 @@ double minutes_of(Protocol protocol) {
   return 0;
 }
 
-double largest(const std::vector<double>& values) {
-  double out = 0;
-  for (const double value : values) {
-    if (std::isfinite(value)) out = std::max(out, std::abs(value));
-  }
-  return out;
-}
-
 /// By how much a channel moves to and fro altogether, in its largest values.
 double travel(const std::vector<double>& values) {
   constexpr std::size_t every = 50;  // noise is no travel
@@ -57,7 +50,7 @@ double travel(const std::vector<double>& values) {
     const double step = std::abs(values[k] - values[k - every]);
     if (std::isfinite(step)) out += step;
   }
-  return out / std::max(1e-300, largest(values));
+  return out / std::max(1e-300, numerics::largest_magnitude(values));
 }
 
 /// The mean pressure difference of each whole slow stroke up and down.
@@ -66,7 +59,7 @@ std::vector<double> slow_strokes_Pa(const Recording& recording) {
   const auto time_s = recording[Channel::time];
   const auto position_m = recording[Channel::position];
   const std::vector<double> pressure_Pa = pressure_difference_Pa(recording);
-  const double most_m = largest(recording.column(Channel::position));
+  const double most_m = numerics::largest_magnitude(recording.column(Channel::position));
   std::vector<double> out;
   double sum = 0, since_s = 0;
   std::size_t samples = 0;
@@ -116,7 +109,8 @@ Recorded recorded_with(const Recording& recording, Protocol protocol, int levels
 Protocol by_own_solenoid(const Recording& recording, int levels) {
   const std::vector<double> pressure_Pa = pressure_difference_Pa(recording);
   if (pressure_Pa.empty() && !recording.has(Channel::flow_reference)) return Protocol::unpressurised_strokes;
-  if (!pressure_Pa.empty() && largest(pressure_Pa) < pump_off_Pa) return Protocol::unpressurised_strokes;
+  if (!pressure_Pa.empty() && numerics::largest_magnitude(pressure_Pa) < pump_off_Pa)
+    return Protocol::unpressurised_strokes;
   return levels >= least_levels ? Protocol::metering : Protocol::operation;
 }
 
@@ -215,7 +209,7 @@ Recorded recognised(const Recording& recording) {
         fmt::format("{}: has no position, without which it serves no test", recording.file.filename().string()));
   }
   if (recording.has(Channel::axial_force)) {
-    const bool pressure = largest(pressure_difference_Pa(recording)) > pump_off_Pa;
+    const bool pressure = numerics::largest_magnitude(pressure_difference_Pa(recording)) > pump_off_Pa;
     return recorded_by(recording, pressure ? Protocol::axial_force_map : Protocol::spring);
   }
   if (recording.has(Channel::force)) {

@@ -20,6 +20,7 @@
 #include "spoolflow/calibration/operation/operation.hpp"
 #include "spoolflow/calibration/operation/operation_uncertainty.hpp"
 #include "spoolflow/model/residual_of.hpp"
+#include "spoolflow/numerics/largest_magnitude.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -57,12 +58,8 @@ constexpr const char* of_operation = "flow rate in operation";
 double largest_voltage_V(const recording::Recording& recording) {
   using recording::Channel;
   double largest_V = 0;
-  for (const Channel channel : {Channel::voltage, Channel::voltage_a, Channel::voltage_b}) {
-    if (!recording.has(channel)) continue;
-    for (const double voltage_V : recording[channel]) {
-      if (std::isfinite(voltage_V)) largest_V = std::max(largest_V, std::abs(voltage_V));
-    }
-  }
+  for (const Channel channel : {Channel::voltage, Channel::voltage_a, Channel::voltage_b})
+    largest_V = std::max(largest_V, numerics::largest_magnitude(recording.column(channel)));
   return largest_V;
 }
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/numerics/largest_magnitude.hpp"
 #include "spoolflow/plausibility/block_means.hpp"
 #include "spoolflow/plausibility/limits.hpp"
 #include "spoolflow/units/conversion.hpp"
@@ -205,8 +206,7 @@ double coil_resistance(const Recording& means) {
   const std::vector<double>& current_A = means.column(Channel::current);
   const std::vector<double>& voltage_V = means.column(Channel::voltage);
   if (current_A.size() < 3 || voltage_V.empty()) return std::nan("");
-  double largest = 0;
-  for (const double current : current_A) largest = std::max(largest, std::isfinite(current) ? std::abs(current) : 0);
+  const double largest = numerics::largest_magnitude(current_A);
   constexpr double least_share = 0.3, still_share = 0.01;
   std::vector<double> out;
   for (std::size_t k = 1; k + 1 < current_A.size(); ++k) {

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/numerics/largest_magnitude.hpp"
 #include "spoolflow/numerics/meter_lag.hpp"
 #include "spoolflow/plausibility/block_means.hpp"
 #include "spoolflow/plausibility/limits.hpp"
@@ -169,8 +170,7 @@ void add_flow_deviations(std::vector<Deviation>& to, const HydraulicCurves& hydr
   const auto [earliest, latest] = std::ranges::minmax(run.column(Channel::time));
   if (!(latest - earliest >= shortest_metered_s)) return;
   const std::vector<double> expected = expected_flow(hydraulics, run);
-  double largest = 0;
-  for (const double flow : expected) largest = std::fmax(largest, std::abs(flow));
+  const double largest = numerics::largest_magnitude(expected);
   FlowFit found = compared(run, expected);
   if (!std::isfinite(found.ratio)) return;
   const double readable = least_flow * hydraulics.largest_flow_m3_per_s;

@@ -8,6 +8,7 @@
 #include "spoolflow/calibration/flow_bench/conductance_fit.hpp"
 #include "spoolflow/calibration/flow_bench/flow_bench_fit.hpp"
 #include "spoolflow/calibration/numerics/fitted_parameters.hpp"
+#include "spoolflow/numerics/largest_magnitude.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -191,11 +192,8 @@ double scale_uncertainty(const EquivalentBenches& benches, const FlowBenchFit& f
 double largest_voltage_V(const FlowBenchRecordings& recordings) {
   double out = 0;
   for (const auto& all : {recordings.unpressurised, recordings.all_metering()}) {
-    for (const Recording* recording : all) {
-      for (const double voltage_V : recording->column(Channel::voltage)) {
-        if (std::isfinite(voltage_V)) out = std::max(out, std::abs(voltage_V));
-      }
-    }
+    for (const Recording* recording : all)
+      out = std::max(out, numerics::largest_magnitude(recording->column(Channel::voltage)));
   }
   return out;
 }

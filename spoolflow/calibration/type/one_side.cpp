@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
+#include "spoolflow/numerics/largest_magnitude.hpp"
 #include "spoolflow/numerics/median.hpp"
 
 namespace spoolflow::calibration {
@@ -20,17 +21,10 @@ constexpr double other_side_m = 20e-6;
 constexpr double centre_share = 0.05, currentless_share = 0.01;
 constexpr std::size_t least_samples = 100;
 
-double largest(const std::vector<double>& values) {
-  double out = 0;
-  for (const double value : values) out = std::isfinite(value) ? std::max(out, std::abs(value)) : out;
-  return out;
-}
-
 /// Where the spool reads while both coils are off [m].
 double centre_m(const recording::Recording& whole, double stroke_m) {
   const auto position_m = whole[Channel::position], a_A = whole[Channel::current_a], b_A = whole[Channel::current_b];
-  const double off_A = currentless_share *
-                       std::max(largest(whole.column(Channel::current_a)), largest(whole.column(Channel::current_b)));
+  const double off_A = currentless_share * std::max(numerics::largest_magnitude(a_A), numerics::largest_magnitude(b_A));
   std::vector<double> readings_m;
   for (std::size_t k = 0; k < whole.size(); ++k) {
     if (std::abs(a_A[k]) < off_A && std::abs(b_A[k]) < off_A && std::abs(position_m[k]) < centre_share * stroke_m)

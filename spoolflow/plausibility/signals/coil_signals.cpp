@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/numerics/largest_magnitude.hpp"
 #include "spoolflow/numerics/median.hpp"
 
 namespace spoolflow::plausibility {
@@ -75,18 +76,12 @@ Means means_of(const Recording& run, Channel current, Channel voltage, double bl
   return out;
 }
 
-double largest(std::span<const double> values) {
-  double out = 0;
-  for (const double value : values) out = std::max(out, std::abs(value));
-  return out;
-}
-
 struct Resistances {
   std::vector<double> begin_s, log_Ohm;  ///< natural logarithm
 };
 Resistances resistances(const Means& means) {
   Resistances out;
-  const double least_A = least_current_share * largest(means.current_A);
+  const double least_A = least_current_share * numerics::largest_magnitude(means.current_A);
   for (std::size_t k = 0; k < means.size(); ++k) {
     if (!(means.current_A[k] > least_A) || !(means.voltage_V[k] > 0)) continue;
     out.begin_s.push_back(means.begin_s[k]);
@@ -158,7 +153,7 @@ std::vector<std::string> currents_without_voltage(const Recording& run) {
   for (const auto& [current, voltage] : coils) {
     const Means means = means_of(run, current, voltage, short_block_s);
     const std::vector<double> log_Ohm = resistances(means_of(run, current, voltage, leap_block_s)).log_Ohm;
-    const double most_V = no_voltage_share * largest(means.voltage_V);
+    const double most_V = no_voltage_share * numerics::largest_magnitude(means.voltage_V);
     std::vector<double> left_A, left_V;
     double since_s = NAN;
     for (std::size_t k = 0; k < means.size(); ++k) {
@@ -174,7 +169,7 @@ std::vector<std::string> currents_without_voltage(const Recording& run) {
     if (left_A.size() < fewest_idle_blocks || log_Ohm.empty()) continue;
     const double zero_A = numerics::median(left_A);
     const double driven_A = numerics::median(left_V) / std::exp(numerics::median(log_Ohm));
-    const double largest_A = largest(means.current_A);
+    const double largest_A = numerics::largest_magnitude(means.current_A);
     if (std::abs(zero_A) < zero_current_share * largest_A || std::abs(driven_A) > most_driven_share * std::abs(zero_A))
       continue;
     out.push_back(fmt::format(
