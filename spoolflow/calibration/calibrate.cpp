@@ -39,13 +39,15 @@ void add_runs(std::vector<OperatingRun>& to, const Recordings& recordings, RunOf
 model::Direction calibrate_benches(const CampaignRecordings& recordings, const model::Valve& valve) {
   for (const recording::Recording* recording : recordings.solenoid_dynamic) require_resolved_dither(*recording);
   const recording::Recording force_map = without_dither(recordings.solenoid_force_map);
-  CondensedCalibration condensed =
-      calibrate_condensed({recordings.spring, force_map, recordings.axial_force_maps, recordings.flow_bench}, valve);
+  const CampaignRecordings benches{.spring = recordings.spring,
+                                   .solenoid_force_map = force_map,
+                                   .solenoid_dynamic = recordings.solenoid_dynamic,
+                                   .axial_force_maps = recordings.axial_force_maps,
+                                   .flow_bench = recordings.flow_bench,
+                                   .fluid = recordings.fluid};
+  CondensedCalibration condensed = calibrate_condensed(benches, valve);
   model::Direction out{std::move(condensed.condensed), std::nullopt, std::move(condensed.evidence)};
-  ObserverCalibration full =
-      calibrate_on_bench({recordings.spring, force_map, recordings.solenoid_dynamic, recordings.axial_force_maps,
-                          recordings.flow_bench, recordings.actuator_is_inferred(), recordings.fluid},
-                         valve, out.condensed.parameters.closed_below_m);
+  ObserverCalibration full = calibrate_on_bench(benches, valve, out.condensed.parameters.closed_below_m);
   out.observer = std::move(full.observer);
   out.evidence.bench = std::move(full.bench);
   return out;

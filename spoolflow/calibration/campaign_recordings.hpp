@@ -1,7 +1,6 @@
 #pragma once
 /// A campaign's recordings in memory, by direction of flow and by what was measured.
 #include <deque>
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -23,12 +22,12 @@ struct CampaignRecordings {
   const recording::Recording& solenoid_force_map;
   Recordings solenoid_dynamic;  ///< none or one
   AxialForceMaps axial_force_maps;
-  Recordings operation;                           ///< may be none
+  Recordings operation{};                         ///< may be none
   const EquivalentBenches* flow_bench = nullptr;  ///< where strokes at held pressure differences are among them
   model::Fluid fluid{};
   bool strokes_as_operation = false;  ///< there was no run: it is the flow bench's strokes
   [[nodiscard]] bool actuator_is_inferred() const {
-    return flow_bench != nullptr && &solenoid_force_map == &flow_bench->solenoid_force_map;
+    return flow_bench != nullptr && !flow_bench->actuator_was_measured;
   }
 };
 

@@ -47,7 +47,7 @@ double closed_below_m(const model::AxialForceLoop& highest, double rated_flow_m3
 
 }  // namespace
 
-CondensedCalibration calibrate_condensed(const CondensedRecordings& recordings, const model::Valve& valve) {
+CondensedCalibration calibrate_condensed(const CampaignRecordings& recordings, const model::Valve& valve) {
   const SpringFit spring = fit_spring(recordings.spring, valve.stroke_m);
   const MagneticForceFit magnetic = fit_magnetic_force(recordings.solenoid_force_map, valve.stroke_m);
   const AxialForceMaps& maps = recordings.axial_force_maps;

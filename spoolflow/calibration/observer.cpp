@@ -100,7 +100,7 @@ void take_off_drift(const AxialForceMaps& measured, double stroke_m, BenchFits& 
   }
 }
 
-BenchFits fit_bench(const ObserverRecordings& recordings, double stroke_m) {
+BenchFits fit_bench(const CampaignRecordings& recordings, double stroke_m) {
   std::vector<const recording::Recording*> bench = recordings.axial_force_maps.recordings();
   bench.insert(bench.begin(), &recordings.spring);
   BenchFits out{};
@@ -113,7 +113,7 @@ BenchFits fit_bench(const ObserverRecordings& recordings, double stroke_m) {
   // The armature never meets its stop in `solenoid_dynamic`: the rig's zero is that of the force map.
   std::optional<recording::Recording> dynamic;
   if (!recordings.solenoid_dynamic.empty()) dynamic = shifted(*recordings.solenoid_dynamic.front(), closed_m);
-  out.actuator = recordings.actuator_is_inferred
+  out.actuator = recordings.actuator_is_inferred()
                      ? recordings.flow_bench->actuator
                      : fit_actuator({force_map, dynamic ? &*dynamic : nullptr}, out.magnetic, stroke_m);
   take_off_drift(recordings.axial_force_maps, stroke_m, out);
@@ -241,7 +241,7 @@ double stopped_above_m(double open_stop_m) {
   return open_stop_m - tolerance_m;
 }
 
-ObserverCalibration calibrate_on_bench(const ObserverRecordings& recordings, const model::Valve& valve,
+ObserverCalibration calibrate_on_bench(const CampaignRecordings& recordings, const model::Valve& valve,
                                        double closed_below_m) {
   const BenchFits fits = fit_bench(recordings, valve.stroke_m);
   ObserverCalibration calibration{};
@@ -273,7 +273,7 @@ ObserverCalibration calibrate_on_bench(const ObserverRecordings& recordings, con
                   "band_unobserved_factor", "band_creep_per_s"};
   if (fits.maps.edges_are_assumed()) out.defaults.emplace_back(model::each_edge_alone);
   if (!fits.actuator.dynamics) out.defaults.emplace_back("hysteresis_threshold_Wb");
-  if (!fits.actuator.dynamics && !recordings.actuator_is_inferred) out.defaults.emplace_back("eddy_currents");
+  if (!fits.actuator.dynamics && !recordings.actuator_is_inferred()) out.defaults.emplace_back("eddy_currents");
   return calibration;
 }
 

@@ -3,24 +3,12 @@
 #include <functional>
 #include <vector>
 
-#include "spoolflow/calibration/edges/path_of_edges.hpp"
-#include "spoolflow/calibration/flow_bench/equivalent_benches.hpp"
+#include "spoolflow/calibration/campaign_recordings.hpp"
 #include "spoolflow/calibration/operation/operation.hpp"
 #include "spoolflow/calibration/operation/replay.hpp"
 #include "spoolflow/model/model.hpp"
-#include "spoolflow/recording/recording.hpp"
 
 namespace spoolflow::calibration {
-
-struct ObserverRecordings {
-  const recording::Recording& spring;
-  const recording::Recording& solenoid_force_map;
-  std::vector<const recording::Recording*> solenoid_dynamic;  ///< none or one
-  AxialForceMaps axial_force_maps;
-  const EquivalentBenches* flow_bench = nullptr;  ///< where some of them are from there
-  bool actuator_is_inferred = false;
-  model::Fluid fluid{};
-};
 
 struct ObserverCalibration {
   model::Observer observer;
@@ -32,7 +20,7 @@ struct ObserverCalibration {
 
 /// Bench maps free of position drift; what only operation shows is taken as assumed. `closed_below_m` is the condensed
 /// model's. Throws CalibrationError.
-[[nodiscard]] ObserverCalibration calibrate_on_bench(const ObserverRecordings& recordings, const model::Valve& valve,
+[[nodiscard]] ObserverCalibration calibrate_on_bench(const CampaignRecordings& recordings, const model::Valve& valve,
                                                      double closed_below_m);
 
 /// What only operation shows, from runs of which those without a reference flow are left out; what no run shows is

@@ -123,7 +123,8 @@ TEST(Condensed, RecoversTheFlowOfAValveWithoutFrictionFromCurrentAndPosition) {
   const auto axial = axial_force_recording(pressures, 1e-6);
   AxialForceMaps maps;
   maps.joined = {&axial};
-  const auto found = calibrate_condensed({spring, solenoid, maps}, {"synthetic", 80 / 60000.0, bench_stroke_m, "b"});
+  const auto found =
+      calibrate_condensed({spring, solenoid, {}, maps}, {"synthetic", 80 / 60000.0, bench_stroke_m, "b"});
   const auto tables = sensor::laid_out(found.condensed.parameters);
   sensor::CondensedState<double> state;
   for (double x = 0.5e-3; x < 2.3e-3; x += 0.2e-3) {

@@ -251,6 +251,7 @@ EquivalentBenches equivalent_benches(const FlowBenchRecordings& recordings, cons
                         0,
                         largest_voltage_V(recordings),
                         {},
+                        measured.actuator.has_value(),
                         measured.spring.has_value(),
                         !measured.axial.empty(),
                         0};

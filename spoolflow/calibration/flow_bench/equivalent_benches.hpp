@@ -17,12 +17,12 @@ struct EquivalentBenches {
   std::deque<recording::Recording> axial_force_maps;   ///< one a recording of `metering`, then of further oil
   std::deque<recording::Recording> outlet_force_maps;  ///< of the outlet, where edges were metered one at a time
   ActuatorFit actuator;
-  PositionSensorFit position;                          ///< of the valve's own sensor
-  double force_residual_N;                             ///< RMS of what the forces leave of the sliding samples
-  double flow_residual_m3_per_s;                       ///< RMS of what conductances leave of the flow meter
-  double largest_voltage_V;                            ///< of the coil, either way; 0 where none was recorded
-  std::vector<model::Fit> known;                       ///< what the fit knows of its unknowns
-  bool spring_was_measured, axial_force_was_measured;  ///< by force rigs, and these hold it
+  PositionSensorFit position;     ///< of the valve's own sensor
+  double force_residual_N;        ///< RMS of what the forces leave of the sliding samples
+  double flow_residual_m3_per_s;  ///< RMS of what conductances leave of the flow meter
+  double largest_voltage_V;       ///< of the coil, either way; 0 where none was recorded
+  std::vector<model::Fit> known;  ///< what the fit knows of its unknowns
+  bool actuator_was_measured, spring_was_measured, axial_force_was_measured;  ///< by force rigs, and these hold it
   double force_scale_95;  ///< by what share all forces may be wrong in proportion, half width
 };
 
