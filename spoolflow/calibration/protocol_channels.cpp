@@ -1,7 +1,6 @@
 #include "spoolflow/calibration/protocol_channels.hpp"
 
 #include <algorithm>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -32,6 +31,10 @@ std::string column_of(const recording::SampleTable& table, recording::ReadOption
 }  // namespace
 
 ProtocolChannels channels_of(Protocol protocol) {
+  const Alternative pressure_difference{
+      {{Channel::pressure_difference}, {Channel::pressure_upstream, Channel::pressure_downstream}},
+      "has no pressure difference; give \"pressure_difference\", or both \"pressure_upstream\" and "
+      "\"pressure_downstream\", in the file or in a channel map"};
   switch (protocol) {
     case Protocol::spring:
       return {{Channel::time, Channel::position, Channel::axial_force}, {Channel::oil_temperature}};
@@ -47,9 +50,7 @@ ProtocolChannels channels_of(Protocol protocol) {
                Channel::pressure_downstream, Channel::oil_temperature, Channel::flow, Channel::flow_reference},
               {{{{Channel::flow}, {Channel::flow_reference}},
                 "has no flow; give \"flow_reference\" in the file or in a channel map"},
-               {{{Channel::pressure_difference}, {Channel::pressure_upstream, Channel::pressure_downstream}},
-                "has no pressure difference; give \"pressure_difference\", or both \"pressure_upstream\" and "
-                "\"pressure_downstream\", in the file or in a channel map"}}};
+               pressure_difference}};
     case Protocol::unpressurised_strokes:
       return {{Channel::time, Channel::position, Channel::current},
               {Channel::voltage, Channel::oil_temperature, Channel::position_set, Channel::pressure_difference,
@@ -58,9 +59,7 @@ ProtocolChannels channels_of(Protocol protocol) {
       return {{Channel::time, Channel::position, Channel::current, Channel::flow_reference},
               {Channel::voltage, Channel::oil_temperature, Channel::position_set, Channel::pressure_difference_set,
                Channel::pressure_difference, Channel::pressure_upstream, Channel::pressure_downstream},
-              {{{{Channel::pressure_difference}, {Channel::pressure_upstream, Channel::pressure_downstream}},
-                "has no pressure difference; give \"pressure_difference\", or both \"pressure_upstream\" and "
-                "\"pressure_downstream\", in the file or in a channel map"}}};
+              {pressure_difference}};
     case Protocol::operation:
       return {{Channel::time, Channel::position},
               {Channel::current, Channel::current_a, Channel::current_b, Channel::voltage, Channel::voltage_a,
