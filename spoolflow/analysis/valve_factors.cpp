@@ -91,14 +91,14 @@ DrawnValve drawn_valve(const rig::ValveUnderTest& nominal, const SpreadSettings&
   instruments.lvdt.gain_error += 0.01 * next.deviate(spread.position_gain_percent);
   instruments.lvdt.zero_offset_m += next.deviate(1e-6 * spread.position_zero_um);
   instruments.lvdt.zero_drift_per_K *= next.factor(spread.position_drift_percent);
-  instruments.shunt.gain_error += 0.01 * next.deviate(spread.current_gain_percent);
-  instruments.shunt.offset_A += next.deviate(1e-3 * spread.current_offset_mA);
-  instruments.voltage.gain_error += 0.01 * next.deviate(spread.voltage_gain_percent);
-  instruments.voltage.offset_V += next.deviate(1e-3 * spread.voltage_offset_mV);
-  instruments.thermometer.offset_K += next.deviate(spread.thermometer_K);
+  instruments.shunt.errors.gain_error += 0.01 * next.deviate(spread.current_gain_percent);
+  instruments.shunt.errors.offset += next.deviate(1e-3 * spread.current_offset_mA);
+  instruments.voltage.errors.gain_error += 0.01 * next.deviate(spread.voltage_gain_percent);
+  instruments.voltage.errors.offset += next.deviate(1e-3 * spread.voltage_offset_mV);
+  instruments.thermometer.errors.offset += next.deviate(spread.thermometer_K);
 
-  keep_inside_ranges(plant);
-  keep_inside_ranges(instruments);
+  rig::keep_inside_ranges(plant);
+  rig::keep_inside_ranges(instruments);
   return out;
 }
 

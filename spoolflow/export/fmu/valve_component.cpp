@@ -40,7 +40,7 @@ struct ValveMemory {
         stage_noise(seed, "current sensing of the electronics"),
         lvdt(valve.instruments.lvdt, seed, at_rest.position_m, oil_temperature_C),
         active(valve.instruments, seed, ""),
-        thermometer(errors(valve.instruments.thermometer), seed, "thermometer", oil_temperature_C),
+        thermometer(valve.instruments.thermometer.errors, seed, "thermometer", oil_temperature_C),
         coil_a(valve.instruments, seed, " of solenoid a"),
         coil_b(valve.instruments, seed, " of solenoid b") {}
 };

@@ -31,16 +31,16 @@ InstrumentPanel::InstrumentPanel(const Instruments& instruments, std::uint64_t s
     : lvdt(instruments.lvdt, seed, plant.position_m, oil_temperature_C),
       whole_valve_(run.whole_valve),
       driven_coil_(instruments, seed, "", run.machine.pwm, run.machine.spikes),
-      load_cell_(errors(instruments.load_cell), seed, "load cell", plant.load_cell_force_N),
-      upstream_(errors(instruments.upstream), seed, "upstream pressure", plant.path.upstream_pressure_Pa),
-      downstream_(errors(instruments.downstream), seed, "downstream pressure", downstream_Pa(plant, run.whole_valve)),
-      thermometer_(errors(instruments.thermometer), seed, "thermometer", oil_temperature_C),
+      load_cell_(instruments.load_cell.errors, seed, "load cell", plant.load_cell_force_N),
+      upstream_(instruments.upstream.errors, seed, "upstream pressure", plant.path.upstream_pressure_Pa),
+      downstream_(instruments.downstream.errors, seed, "downstream pressure", downstream_Pa(plant, run.whole_valve)),
+      thermometer_(instruments.thermometer.errors, seed, "thermometer", oil_temperature_C),
       coil_a_(instruments, seed, " a", run.machine.pwm, run.machine.spikes),
       coil_b_(instruments, seed, " b", run.machine.pwm, run.machine.spikes),
       flow_meter_(instruments.flow_meter, seed, flow_m3_per_s(plant, run.whole_valve)) {
   if (records(run, Channel::pressure_p) || records(run, Channel::pressure_a) || records(run, Channel::pressure_b) ||
       records(run, Channel::pressure_t)) {
-    const TransducerErrors sensor = errors(instruments.upstream);
+    const TransducerErrors sensor = instruments.upstream.errors;
     ports_ = Ports{.P = Transducer(sensor, seed, "pressure P", plant.pressure_P_Pa),
                    .A = Transducer(sensor, seed, "pressure A", plant.pressure_A_Pa),
                    .B = Transducer(sensor, seed, "pressure B", plant.pressure_B_Pa),

@@ -56,8 +56,8 @@ class CoilPanel {
       : pwm_(pwm),
         spikes_(spikes),
         chance_(seed, std::string("current spikes").append(coil)),
-        shunt_(errors(instruments.shunt), seed, std::string("shunt").append(coil), 0),
-        divider_(errors(instruments.voltage), seed, std::string("voltage").append(coil), 0) {}
+        shunt_(instruments.shunt.errors, seed, std::string("shunt").append(coil), 0),
+        divider_(instruments.voltage.errors, seed, std::string("voltage").append(coil), 0) {}
 
   /// One period of the electronics went by with this mean voltage and this current at its end.
   void follow(double current_A, double voltage_V) {
