@@ -22,13 +22,6 @@ class Numbers {
   const double* next_;
 };
 
-template <class Aggregate>
-void keep_inside_ranges(Aggregate& aggregate) {
-  rig::for_each_parameter(aggregate, [](std::string_view, const rig::Parameter& parameter, double& value) {
-    value = std::clamp(value, parameter.min, parameter.max);
-  });
-}
-
 }  // namespace
 
 const std::vector<Factor>& valve_factors() {

@@ -33,13 +33,6 @@ class Draw {
   std::uint64_t seed_;
 };
 
-template <class Aggregate>
-void keep_inside_ranges(Aggregate& aggregate) {
-  for_each_parameter(aggregate, [](std::string_view, const Parameter& parameter, double& value) {
-    value = std::clamp(value, parameter.min, parameter.max);
-  });
-}
-
 /// Of the spring that closes the spool, the mean over its stroke [N].
 double mean_closing_N(const PlantParameters& plant) {
   return plant.spring_b.preload_N + 0.5 * plant.spring_b.rate_N_per_m * plant.spool.stroke_m;

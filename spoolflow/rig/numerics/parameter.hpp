@@ -9,6 +9,7 @@
 ///       visit(Parameter{"turns", "1", 100, 3000, "why this range"}, self.turns);   // a number
 ///       visit("coil", self.coil);                                                   // a nested aggregate
 ///     }
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -48,6 +49,14 @@ template <class Aggregate>
 void check_ranges(const Aggregate& aggregate) {
   for_each_parameter(aggregate, [](std::string_view path, const Parameter& parameter, const double& value) {
     check_range(path, parameter, value);
+  });
+}
+
+/// Moves every number below `aggregate` into its range.
+template <class Aggregate>
+void keep_inside_ranges(Aggregate& aggregate) {
+  for_each_parameter(aggregate, [](std::string_view, const Parameter& parameter, double& value) {
+    value = std::clamp(value, parameter.min, parameter.max);
   });
 }
 
