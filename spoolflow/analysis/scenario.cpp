@@ -10,16 +10,16 @@ namespace {
 
 rig::Settings settings_of(Scenario& scenario) {
   rig::Settings out;
-  out.add_seed("seed", scenario.seed);
+  out.add_value("seed", scenario.seed);
   out.add("points", scenario.points).add("instruments", scenario.instruments);
   out.add("monte_carlo", scenario.monte_carlo).add("map", scenario.map).add("run", scenario.run);
   out.add("study", scenario.study);
-  out.add_flag("points.pairs", scenario.points.pairs).add_flag("points.closing", scenario.points.closing);
-  out.add_flag("instruments.one_load_cell", scenario.instruments.one_load_cell);
-  out.add_flag("monte_carlo.adaptive", scenario.monte_carlo.adaptive);
-  out.add_flag("run.other_bench", scenario.run.other_bench);
-  out.add_flag("study.skip", scenario.study.skip).add_flag("study.given_model", scenario.study.given_model);
-  out.add_text("study.valve", scenario.study.valve);
+  out.add_value("points.pairs", scenario.points.pairs).add_value("points.closing", scenario.points.closing);
+  out.add_value("instruments.one_load_cell", scenario.instruments.one_load_cell);
+  out.add_value("monte_carlo.adaptive", scenario.monte_carlo.adaptive);
+  out.add_value("run.other_bench", scenario.run.other_bench);
+  out.add_value("study.skip", scenario.study.skip).add_value("study.given_model", scenario.study.given_model);
+  out.add_value("study.valve", scenario.study.valve);
   return out;
 }
 

@@ -119,19 +119,19 @@ Scenario read_scenario(const std::filesystem::path& file) {
   Protocol protocol = protocol_of(source);
   Scenario scenario{.valve = {}, .protocol = std::move(protocol)};
   std::string valve = "size_6";
-  apply_known(source, Settings().add_text("valve", valve));
+  apply_known(source, Settings().add_value("valve", valve));
   scenario.valve_file = valve_file(valve, file);
   scenario.valve = read_valve_and_campaign(scenario.valve_file.empty() ? valve : scenario.valve_file.string()).valve;
 
   Settings settings;
-  settings.add_text("valve", valve).add_choice("protocol", protocol_names(), [](std::size_t) {});
+  settings.add_value("valve", valve).add_choice("protocol", protocol_names(), [](std::size_t) {});
   add_valve_settings(settings, scenario.valve);
   std::visit(
       [&](auto& its) {
         settings.add("run", its);
         if constexpr (requires { its.conditions; }) {
-          settings.add_flag("run.conditions.port_pressures", its.conditions.port_pressures);
-          settings.add_flag("run.conditions.supply_follows_difference", its.conditions.supply_follows_difference);
+          settings.add_value("run.conditions.port_pressures", its.conditions.port_pressures);
+          settings.add_value("run.conditions.supply_follows_difference", its.conditions.supply_follows_difference);
         }
       },
       scenario.protocol);

@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -41,7 +40,9 @@ class Settings {
         prefix);
     return *this;
   }
-  Settings& add_text(std::string key, std::string& target) {
+  /// A text, a flag or a seed.
+  template <class Value>
+  Settings& add_value(std::string key, Value& target) {
     settings_.push_back({.key = std::move(key), .about = {}, .target = &target});
     return *this;
   }
@@ -49,14 +50,6 @@ class Settings {
   Settings& add_choice(std::string key, std::vector<std::string> choices, std::function<void(std::size_t)> chosen) {
     settings_.push_back(
         {.key = std::move(key), .about = {}, .target = std::move(chosen), .choices = std::move(choices)});
-    return *this;
-  }
-  Settings& add_flag(std::string key, bool& target) {
-    settings_.push_back({.key = std::move(key), .about = {}, .target = &target});
-    return *this;
-  }
-  Settings& add_seed(std::string key, std::uint64_t& target) {
-    settings_.push_back({.key = std::move(key), .about = {}, .target = &target});
     return *this;
   }
 

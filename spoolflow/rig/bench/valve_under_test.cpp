@@ -69,20 +69,20 @@ void check_spread(const std::string& source, const ValveUnderTest& valve) {
 }
 
 void add_valve_settings(Settings& settings, ValveUnderTest& valve) {
-  settings.add_text("name", valve.name).add_text("fluid", valve.fluid).add_seed("seed", valve.seed);
+  settings.add_value("name", valve.name).add_value("fluid", valve.fluid).add_value("seed", valve.seed);
   settings.add("rating", valve.rating).add("plant", valve.plant).add("electronics", valve.electronics);
   settings.add("bench_amplifier", valve.bench_amplifier).add("instruments", valve.instruments);
   settings.add("wear", valve.wear).add("spread", valve.spread);
-  settings.add_seed("spread.seed", valve.spread_seed);
+  settings.add_value("spread.seed", valve.spread_seed);
   settings.add_choice("hysteresis", {"jiles_atherton", "preisach"}, [&plant = valve.plant](std::size_t kind) {
     plant.solenoid_a.hysteresis.kind = plant.solenoid_b.hysteresis.kind = static_cast<HysteresisKind>(kind);
   });
-  settings.add_flag("whole", valve.whole);
+  settings.add_value("whole", valve.whole);
   settings.add_choice("plant.load.kind",
                       {"held_difference", "orifice", "cylinder", "motor", "held_path", "held_return"},
                       [&load = valve.plant.load](std::size_t kind) { load.kind = static_cast<LoadKind>(kind); });
-  settings.add_flag("plant.load.ideal_hold", valve.plant.load.ideal_hold);
-  settings.add_flag("plant.load.return_to_tank", valve.plant.load.return_to_tank);
+  settings.add_value("plant.load.ideal_hold", valve.plant.load.ideal_hold);
+  settings.add_value("plant.load.return_to_tank", valve.plant.load.return_to_tank);
   settings.add_choice(
       "electronics.dither.shape", {"sine", "square", "triangle"},
       [&dither = valve.electronics.dither](std::size_t shape) { dither.shape = static_cast<DitherShape>(shape); });

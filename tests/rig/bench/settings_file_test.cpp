@@ -31,7 +31,7 @@ struct SettingsFile : ::testing::Test {
   std::size_t chosen = 99;
   Settings settings;
   SettingsFile() {
-    settings.add("spool", inner).add_text("name", text).add_flag("ideal", flag).add_seed("seed", seed);
+    settings.add("spool", inner).add_value("name", text).add_value("ideal", flag).add_value("seed", seed);
     settings.add_choice("kind", {"one", "two"}, [this](std::size_t index) { chosen = index; });
   }
   std::string message(const std::string& toml) const {
