@@ -1,7 +1,6 @@
 #pragma once
 /// What is planned for one recording: arrangement, the course of every set value, what is stored and how often.
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "spoolflow/recording/channels/channel.hpp"
@@ -11,25 +10,6 @@
 #include "spoolflow/rig/plant/valve_plant.hpp"
 
 namespace spoolflow::rig {
-
-/// Which of the edges that x > 0 opens the bench feeds.
-enum class BenchEdges {
-  inlet,   ///< P to B; A, B and T drain to the back pressure
-  path,    ///< P to B and A to T, one behind the other: A and B are joined
-  outlet,  ///< A to T: port A is fed instead of P
-};
-
-[[nodiscard]] inline LoadKind load_of(BenchEdges edges) {
-  switch (edges) {
-    case BenchEdges::inlet:
-      return LoadKind::held_difference;
-    case BenchEdges::path:
-      return LoadKind::held_path;
-    case BenchEdges::outlet:
-      return LoadKind::held_return;
-  }
-  return LoadKind::held_difference;
-}
 
 /// What feeds the coil.
 enum class CoilFeed {

@@ -14,9 +14,9 @@ std::uint64_t seed_of(const ValveUnderTest& valve, std::string_view file) {
 }  // namespace
 
 std::vector<FedEdges> fed_edges(const CampaignSettings& settings, const std::string& direction) {
-  if (!settings.one_edge_at_a_time) return {{"", BenchEdges::path}};
-  if (direction == "b") return {{"PB", BenchEdges::inlet}, {"AT", BenchEdges::outlet}};
-  return {{"PA", BenchEdges::inlet}, {"BT", BenchEdges::outlet}};
+  if (!settings.one_edge_at_a_time) return {{"", LoadKind::held_path}};
+  if (direction == "b") return {{"PB", LoadKind::held_difference}, {"AT", LoadKind::held_return}};
+  return {{"PA", LoadKind::held_difference}, {"BT", LoadKind::held_return}};
 }
 
 CampaignItems::CampaignItems(const ValveUnderTest& valve) : valve_(as_built(valve)) {}

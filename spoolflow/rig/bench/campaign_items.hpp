@@ -74,7 +74,7 @@ struct CampaignItem {
 /// What a bench feeds at once, and its name in campaign.toml: empty where A and B are joined.
 struct FedEdges {
   std::string edge;
-  BenchEdges edges;
+  LoadKind load;
 };
 /// Of that direction of a whole valve, in turn.
 [[nodiscard]] std::vector<FedEdges> fed_edges(const CampaignSettings& settings, const std::string& direction);

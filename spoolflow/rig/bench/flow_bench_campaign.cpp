@@ -32,7 +32,7 @@ void add_direction(CampaignItems& items, const CampaignSettings& settings, const
   for (const FedEdges& fed : fed_edges(settings, direction)) {
     for (const double temperature_C : settings.oil_temperatures_C) {
       FlowBenchProtocol protocol = metering(settings, temperature_C);
-      protocol.edges = fed.edges;
+      protocol.load = fed.load;
       items.add_bench_test(fmt::format("metering_{:g}_{}.csv", temperature_C, fed.edge.empty() ? direction : fed.edge),
                            "metering", protocol, direction, fed.edge);
     }

@@ -95,7 +95,7 @@ BenchRun plan(const Protocol& protocol, const ValveUnderTest& valve, std::uint64
     const ValveUnderTest& valve;
     std::uint64_t seed;
     BenchRun operator()(AxialForceProtocol settings) const {
-      if (valve.whole && !settings.edges) settings.edges = BenchEdges::path;
+      if (valve.whole && !settings.load) settings.load = LoadKind::held_path;
       return plan(settings, valve.plant.spool.stroke_m);
     }
     BenchRun operator()(const SolenoidForceMapProtocol& settings) const {
@@ -105,7 +105,7 @@ BenchRun plan(const Protocol& protocol, const ValveUnderTest& valve, std::uint64
       return plan(settings, solenoid_rating(valve));
     }
     BenchRun operator()(FlowBenchProtocol settings) const {
-      if (valve.whole && !settings.edges) settings.edges = BenchEdges::path;
+      if (valve.whole && !settings.load) settings.load = LoadKind::held_path;
       return plan(settings);
     }
     BenchRun operator()(const RampsProtocol& settings) const { return plan(settings); }

@@ -33,14 +33,14 @@ struct BenchChoices {
 };
 struct NamedEdge {
   const char* name;
-  BenchEdges edges;
+  LoadKind load;
   std::optional<bool> direction_a;  ///< what it opens with
 };
-constexpr std::array<NamedEdge, 5> edges{{{"path", BenchEdges::path, std::nullopt},
-                                          {"PB", BenchEdges::inlet, false},
-                                          {"AT", BenchEdges::outlet, false},
-                                          {"PA", BenchEdges::inlet, true},
-                                          {"BT", BenchEdges::outlet, true}}};
+constexpr std::array<NamedEdge, 5> edges{{{"path", LoadKind::held_path, std::nullopt},
+                                          {"PB", LoadKind::held_difference, false},
+                                          {"AT", LoadKind::held_return, false},
+                                          {"PA", LoadKind::held_difference, true},
+                                          {"BT", LoadKind::held_return, true}}};
 
 void add_bench_choices(Settings& settings, Scenario& scenario, BenchChoices& choices) {
   settings.add_choice("direction", {"b", "a"}, [&](std::size_t index) {
@@ -61,9 +61,9 @@ void take(const BenchChoices& choices, const std::string& file, Scenario& scenar
                     file));
   }
   if (!choices.edge) return;
-  std::optional<BenchEdges>* fed = nullptr;
-  if (auto* axial = std::get_if<AxialForceProtocol>(&scenario.protocol)) fed = &axial->edges;
-  if (auto* bench = std::get_if<FlowBenchProtocol>(&scenario.protocol)) fed = &bench->edges;
+  std::optional<LoadKind>* fed = nullptr;
+  if (auto* axial = std::get_if<AxialForceProtocol>(&scenario.protocol)) fed = &axial->load;
+  if (auto* bench = std::get_if<FlowBenchProtocol>(&scenario.protocol)) fed = &bench->load;
   if (fed == nullptr) {
     throw SettingsError(fmt::format(
         "{}: edge is of the protocols axial_force_map, spring, metering and unpressurised_strokes; remove it here",
@@ -74,7 +74,7 @@ void take(const BenchChoices& choices, const std::string& file, Scenario& scenar
     throw SettingsError(fmt::format("{}: edge = \"{}\" opens in direction {}; correct direction or remove it", file,
                                     edge.name, *edge.direction_a ? "a" : "b"));
   }
-  *fed = edge.edges;
+  *fed = edge.load;
   if (edge.direction_a) scenario.direction_a = *edge.direction_a;
 }
 

@@ -13,7 +13,7 @@ BenchRun plan(const AxialForceProtocol& protocol, double stroke_m) {
   BenchRun run;
   run.arrangement = Arrangement::axial_force_bench;
   run.coil_feed = CoilFeed::none;
-  if (protocol.edges) run.load = load_of(*protocol.edges);
+  run.load = protocol.load;
   const double rate_m_per_s = stroke_m * protocol.rate_percent_per_s / 100;
   for (const double level_bar : protocol.pressure_differences_bar) {
     const double from_s = run.motion_m.duration_s();
@@ -42,7 +42,7 @@ FlowBenchProtocol unpressurised_protocol() {
 BenchRun plan(const FlowBenchProtocol& protocol) {
   BenchRun run;
   run.valve_dithers = false;  // strokes are sampled too slowly to resolve it
-  if (protocol.edges) run.load = load_of(*protocol.edges);
+  run.load = protocol.load;
   const auto stroke = [&](double level_bar, double rate_percent_per_s) {
     const double from_s = run.position_set.duration_s(), rate_per_s = rate_percent_per_s / 100;
     run.position_set.hold(protocol.hold_s)

@@ -17,7 +17,9 @@ struct AxialForceProtocol {
   double rate_percent_per_s = 5.0;
   double hold_s = 1.0;
   double sample_rate_Hz = 100.0;
-  std::optional<BenchEdges> edges{};  ///< absent: the path of a whole valve, else as the valve's load has it
+  /// Which edges the bench feeds: held_difference, held_path or held_return; absent: of a whole valve its path, else as
+  /// the valve's load has it.
+  std::optional<LoadKind> load{};
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -48,7 +50,9 @@ struct FlowBenchProtocol {
   double fast_rate_percent_per_s = 0.0;
   double hold_s = 1.0;
   double sample_rate_Hz = 500.0;
-  std::optional<BenchEdges> edges{};  ///< absent: the path of a whole valve, else as the valve's load has it
+  /// Which edges the bench feeds: held_difference, held_path or held_return; absent: of a whole valve its path, else as
+  /// the valve's load has it.
+  std::optional<LoadKind> load{};
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {

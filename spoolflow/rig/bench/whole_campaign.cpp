@@ -23,7 +23,7 @@ void add_axial_force_maps(CampaignItems& items, const CampaignSettings& settings
           "axial_force_map",
           AxialForceProtocol{.pressure_differences_bar = settings.pressure_differences_bar,
                              .oil_temperature_C = temperature_C,
-                             .edges = fed.edges},
+                             .load = fed.load},
           direction, fed.edge);
     }
   }

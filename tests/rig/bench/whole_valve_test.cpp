@@ -178,7 +178,7 @@ TEST(WholeValveOnTheBench, TheInletAloneIsTheBenchOfAValveOfOneDirection) {
   ValveUnderTest one = symmetric_valve();
   one.whole = false;
   one.plant.load.kind = LoadKind::held_difference;
-  EXPECT_EQ(bytes_of(one, {}), bytes_of(symmetric_valve(), {.edges = BenchEdges::inlet}));
+  EXPECT_EQ(bytes_of(one, {}), bytes_of(symmetric_valve(), {.load = LoadKind::held_difference}));
 }
 
 /// What the bench says at full opening, after the ramp.
@@ -186,9 +186,9 @@ struct FullyOpen {
   double flow_L_min, flow_force_N;
 };
 
-FullyOpen fully_open(const ValveUnderTest& valve, BenchEdges edges, double difference_bar) {
+FullyOpen fully_open(const ValveUnderTest& valve, LoadKind load, double difference_bar) {
   const AxialForceProtocol protocol{
-      .pressure_differences_bar = {difference_bar}, .rate_percent_per_s = 100, .edges = edges};
+      .pressure_differences_bar = {difference_bar}, .rate_percent_per_s = 100, .load = load};
   const Simulation run = simulate(valve, plan(protocol, valve, 1), 1, {.with_truth = true});
   const std::size_t at = 150;  // ramp of 1 s, hold of 1 s, 100 Hz
   EXPECT_NEAR(run.truth["pressure_difference_bar"][at], difference_bar, 0.5);
@@ -199,8 +199,9 @@ FullyOpen fully_open(const ValveUnderTest& valve, BenchEdges edges, double diffe
 
 TEST(WholeValveOnTheBench, JoinedPortsShowTheForcesOfBothEdgesAtHalfTheDifferenceEach) {
   const ValveUnderTest valve = symmetric_valve();
-  const FullyOpen inlet = fully_open(valve, BenchEdges::inlet, 30), outlet = fully_open(valve, BenchEdges::outlet, 30);
-  const FullyOpen path = fully_open(valve, BenchEdges::path, 60);
+  const FullyOpen inlet = fully_open(valve, LoadKind::held_difference, 30),
+                  outlet = fully_open(valve, LoadKind::held_return, 30);
+  const FullyOpen path = fully_open(valve, LoadKind::held_path, 60);
   EXPECT_NEAR(inlet.flow_L_min / path.flow_L_min, 1, 0.01);
   EXPECT_NEAR(outlet.flow_L_min / path.flow_L_min, 1, 0.01);
   EXPECT_GT(outlet.flow_force_N, 10);
