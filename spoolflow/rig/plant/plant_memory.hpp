@@ -32,6 +32,19 @@ inline void add_losses(const SolenoidOf<Scalar>& solenoid, const SolenoidConstan
                    constants.iron_length_m / constants.per_iron_area_m2 * iron_J_per_m3;
 }
 
+/// What a step's losses make of both solenoids' temperatures.
+template <class Scalar>
+inline void heat_up(const PlantParametersOf<Scalar>& p, const PlantConstantsOf<Scalar>& c, PlantStateOf<Scalar>& state,
+                    const PlantLossesOf<Scalar>& losses, const PlantInputOf<Scalar>& input, Given<Scalar> dt_s) {
+  const auto heat = [&](const SolenoidOf<Scalar>& solenoid, SolenoidStateOf<Scalar>& its,
+                        const SolenoidLossesOf<Scalar>& loss) {
+    heat_up(solenoid.heat, its.heat, loss.winding_J / dt_s, loss.iron_J / dt_s, input.ambient_temperature_C,
+            input.oil_temperature_C, dt_s);
+  };
+  if (c.solenoid_a) heat(p.solenoid_a, state.solenoid_a, losses.solenoid_a);
+  if (c.solenoid_b) heat(p.solenoid_b, state.solenoid_b, losses.solenoid_b);
+}
+
 /// Contact ages at states reached `elapsed_s` after the state; `first` are the rates at the state.
 template <class Scalar>
 inline ContactAgesOf<Scalar> contact_ages(const PlantConstantsOf<Scalar>& c, const PlantStateOf<Scalar>& state,

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -111,14 +110,7 @@ void step(const PlantParameters& p, PlantState& state, const PlantInput& input, 
     tick += stride;
     if (error < grow * p.integration.tolerance && stride < ticks_per_longest && tick % (2 * stride) == 0) stride *= 2;
   }
-  if (c.solenoid_a) {
-    heat_up(p.solenoid_a.heat, state.solenoid_a.heat, losses.solenoid_a.winding_J / dt_s,
-            losses.solenoid_a.iron_J / dt_s, input.ambient_temperature_C, input.oil_temperature_C, dt_s);
-  }
-  if (c.solenoid_b) {
-    heat_up(p.solenoid_b.heat, state.solenoid_b.heat, losses.solenoid_b.winding_J / dt_s,
-            losses.solenoid_b.iron_J / dt_s, input.ambient_temperature_C, input.oil_temperature_C, dt_s);
-  }
+  heat_up(p, c, state, losses, input, dt_s);
 }
 
 PlantOutput observe(const PlantParameters& p, const PlantState& state_now, const PlantInput& input) {

@@ -91,14 +91,7 @@ struct PlantLanes {
     const StepContextOf<Numbers> context{parameters, c, input, scale, input.motion ? &path : nullptr, state.time_s};
     PlantLossesOf<Numbers> losses;
     stride(context, losses);
-    if (c.solenoid_a) {
-      heat_up(parameters.solenoid_a.heat, state.solenoid_a.heat, losses.solenoid_a.winding_J / dt_s,
-              losses.solenoid_a.iron_J / dt_s, input.ambient_temperature_C, input.oil_temperature_C, Numbers(dt_s));
-    }
-    if (c.solenoid_b) {
-      heat_up(parameters.solenoid_b.heat, state.solenoid_b.heat, losses.solenoid_b.winding_J / dt_s,
-              losses.solenoid_b.iron_J / dt_s, input.ambient_temperature_C, input.oil_temperature_C, Numbers(dt_s));
-    }
+    heat_up(parameters, c, state, losses, input, dt_s);
   }
 
   void show(PlantState* const* states) const {
