@@ -1,7 +1,6 @@
 #include "spoolflow/analysis/point_analysis.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <mutex>
 

@@ -1,7 +1,6 @@
 #include "spoolflow/analysis/run_function.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "spoolflow/analysis/run_samples.hpp"
 #include "spoolflow/estimation/columns.hpp"

@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "spoolflow/analysis/study_ledger.hpp"
 #include "spoolflow/calibration/type/plan_minute.hpp"

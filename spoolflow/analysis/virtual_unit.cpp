@@ -4,8 +4,6 @@
 #include <mutex>
 #include <stdexcept>
 
-#include <fmt/format.h>
-
 #include "spoolflow/calibration/calibrate.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/type/calibrate_unit.hpp"

@@ -1,6 +1,5 @@
 #pragma once
 /// Which channels a protocol's recording is read for, and whether a file has them.
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>

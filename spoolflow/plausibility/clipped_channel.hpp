@@ -1,7 +1,6 @@
 #pragma once
 /// Channels that an amplifier, a converter or a recorder clips.
 #include <array>
-#include <span>
 #include <string>
 #include <vector>
 

@@ -3,7 +3,6 @@
 /// not.
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>

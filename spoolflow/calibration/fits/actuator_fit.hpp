@@ -1,7 +1,6 @@
 #pragma once
 /// The solenoid's whole calibration: flux linkage, hysteresis, eddy currents, armature friction, uncertainty.
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "spoolflow/calibration/fits/armature_friction.hpp"

@@ -1,7 +1,5 @@
 #include "spoolflow/calibration/fits/coil_deviation.hpp"
 
-#include <algorithm>
-
 #include "spoolflow/numerics/dual.hpp"
 #include "spoolflow/parallel/for_each.hpp"
 

@@ -1,7 +1,6 @@
 #include "spoolflow/calibration/fits/hysteresis_loops.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "spoolflow/calibration/numerics/nonnegative_least_squares.hpp"

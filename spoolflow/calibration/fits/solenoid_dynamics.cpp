@@ -1,7 +1,6 @@
 #include "spoolflow/calibration/fits/solenoid_dynamics.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 

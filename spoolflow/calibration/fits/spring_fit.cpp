@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "spoolflow/calibration/fits/bench_strokes.hpp"
 #include "spoolflow/calibration/fits/both_directions.hpp"
 #include "spoolflow/calibration/fits/sliding_friction.hpp"

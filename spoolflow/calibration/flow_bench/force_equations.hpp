@@ -8,7 +8,6 @@
 /// magnetic force is that of the coenergy times 1 + c(i, x), c small and smooth. Everything is linear in the unknowns
 /// but the coil, which is linearised about where it stands.
 #include <array>
-#include <optional>
 #include <vector>
 
 #include <Eigen/Core>

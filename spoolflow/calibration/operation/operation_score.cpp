@@ -1,7 +1,6 @@
 #include "spoolflow/calibration/operation/operation_score.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace spoolflow::calibration {

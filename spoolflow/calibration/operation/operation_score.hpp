@@ -2,8 +2,6 @@
 /// How well the observer does on operating runs, and what of it may be turned to do better.
 #include <algorithm>
 #include <cstddef>
-#include <functional>
-#include <string>
 #include <vector>
 
 #include "spoolflow/calibration/numerics/fit_residual.hpp"

@@ -1,6 +1,5 @@
 #pragma once
 /// Whether the recordings of a unit can be of one unit.
-#include <optional>
 #include <string>
 #include <vector>
 

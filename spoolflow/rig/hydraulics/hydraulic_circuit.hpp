@@ -13,7 +13,6 @@
 /// stays there.
 #include <algorithm>
 #include <array>
-#include <numbers>
 #include <span>
 
 #include "spoolflow/rig/hydraulics/flow_force.hpp"

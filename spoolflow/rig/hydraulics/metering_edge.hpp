@@ -10,8 +10,6 @@
 /// Turbulent and laminar loss in series make the discharge coefficient Cd sqrt(Re/(Re + Re_t)): smooth through zero
 /// flow and odd in dp. A worn (rounded) edge opens earlier and contracts the jet less: Cd -> Cd + (0.95 - Cd) r/(r +
 /// o+). Leaves out the end of the notches and choking by cavitation.
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "spoolflow/rig/numerics/parameter.hpp"

@@ -8,7 +8,6 @@
 ///
 /// Valid -20 to 120 C, 0 to 400 bar.
 #include <algorithm>
-#include <cmath>
 
 #include "spoolflow/rig/numerics/elementary_functions.hpp"
 #include "spoolflow/rig/numerics/parameter.hpp"

@@ -1,7 +1,6 @@
 #include "spoolflow/rig/instruments/lvdt.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "spoolflow/rig/numerics/acquisition.hpp"
 #include "spoolflow/rig/numerics/elementary_functions.hpp"

@@ -1,7 +1,6 @@
 #pragma once
 /// Numbers of several valves side by side in one SIMD register, for the plant's templates. Types carry the number of
 /// lanes, so that translation units for different instruction sets share none.
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>

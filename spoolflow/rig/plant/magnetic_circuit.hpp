@@ -14,8 +14,6 @@
 /// slope falls with the plunge, so the force grows with the gap, as proportional magnets are built for; the second is
 /// the flat face behind an anti-stick disc. Leaves out the local saturation of the cone's edge (its effect is inside
 /// the iron section's).
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "spoolflow/rig/numerics/parameter.hpp"

@@ -5,7 +5,6 @@
 ///     PlantGroup group(parameters, states);          // plants that are alike, each at its own state
 ///     group.step(inputs, 1e-4);                      // one period of all; inputs held over it
 ///     group.observe(inputs, truths);                 // ground truth of all
-#include <memory>
 #include <span>
 #include <vector>
 

@@ -2,7 +2,6 @@
 /// Preisach's memory of several valves at once. Most changes go on along a branch, or turn, before the next corner of
 /// the loop: those are found for all valves together, by the newest two reversal points; where a loop is wiped out, the
 /// valve is looked at alone.
-#include <algorithm>
 
 #include "spoolflow/rig/numerics/lanes.hpp"
 #include "spoolflow/rig/plant/preisach.hpp"
