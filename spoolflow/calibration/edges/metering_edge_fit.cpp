@@ -23,41 +23,25 @@ struct EdgeColumn {
 
 EdgeColumn column_at(const AxialForceFit& fit, std::size_t position, double spring_N, double unloaded_friction_N,
                      const std::vector<double>& pressures_Pa) {
-  std::vector<double> known_Pa{0.0};
-  std::vector<double> force_N{0.0};
-  std::vector<double> friction_N{unloaded_friction_N};
-  std::vector<double> conductance;
-  for (const model::AxialForceLoop& loop : fit.loops) {
-    const double pressure_Pa = loop.pressure_difference_Pa[position];
-    if (!(pressure_Pa > known_Pa.back())) continue;  // a level that the supply could not hold adds nothing
-    known_Pa.push_back(pressure_Pa);
-    force_N.push_back(0.5 * (loop.opening_N[position] + loop.closing_N[position]) - spring_N);
-    friction_N.push_back(0.5 * std::abs(loop.opening_N[position] - loop.closing_N[position]));
-    conductance.push_back(std::max(loop.flow_m3_per_s[position], 0.0) / std::sqrt(pressure_Pa));
-  }
-  conductance.insert(conductance.begin(), conductance.front());
-  force_N = non_decreasing(force_N);
+  EdgeLevels known = levels_at(fit, position, spring_N);
+  known.friction_N.front() = unloaded_friction_N;
   // The supply holds the highest level a little below what it was set to: the trend goes on to there.
+  std::vector<double>& known_Pa = known.pressure_Pa;
   const std::size_t last = known_Pa.size() - 1;
   const double beyond_Pa = 0.05 * known_Pa[last];
   const auto go_on = [&](std::vector<double>& values) {
     const double slope = (values[last] - values[last - 1]) / (known_Pa[last] - known_Pa[last - 1]);
     values.push_back(values[last] + slope * beyond_Pa);
   };
-  go_on(force_N);
-  go_on(friction_N);
-  conductance.push_back(conductance[last]);
+  go_on(known.force_N);
+  go_on(known.friction_N);
+  known.conductance.push_back(known.conductance[last]);
   known_Pa.push_back(known_Pa[last] + beyond_Pa);
-  EdgeColumn out{interpolate_monotone({known_Pa, force_N}, pressures_Pa),
-                 interpolate_monotone({known_Pa, friction_N}, pressures_Pa),
-                 interpolate_monotone({known_Pa, conductance}, pressures_Pa)};
+  EdgeColumn out{interpolate_monotone({known_Pa, known.force_N}, pressures_Pa),
+                 interpolate_monotone({known_Pa, known.friction_N}, pressures_Pa),
+                 interpolate_monotone({known_Pa, known.conductance}, pressures_Pa)};
   for (double& each : out.friction_N) each = std::max(0.0, each);  // rounding, and the trend beyond the highest level
   return out;
-}
-
-double interpolated(const std::vector<double>& at, const std::vector<double>& values, double x) {
-  if (at.size() == 1) return values.front();
-  return interpolate_monotone({at, values}, std::vector<double>{x}).front();
 }
 
 /// The maps where the valve is three quarters open: flow force over pressure, friction over pressure, conductance, each
@@ -104,6 +88,21 @@ std::vector<model::Fit> laws_of(const std::vector<const AxialForceFit*>& fits, c
 }
 
 }  // namespace
+
+EdgeLevels levels_at(const AxialForceFit& fit, std::size_t position, double spring_N) {
+  EdgeLevels out{{0}, {0}, {0}, {0}};
+  for (const model::AxialForceLoop& loop : fit.loops) {
+    const double pressure_Pa = loop.pressure_difference_Pa[position];
+    if (!(pressure_Pa > out.pressure_Pa.back())) continue;  // a level that the supply could not hold adds nothing
+    out.pressure_Pa.push_back(pressure_Pa);
+    out.force_N.push_back(0.5 * (loop.opening_N[position] + loop.closing_N[position]) - spring_N);
+    out.friction_N.push_back(0.5 * std::abs(loop.opening_N[position] - loop.closing_N[position]));
+    out.conductance.push_back(std::max(loop.flow_m3_per_s[position], 0.0) / std::sqrt(pressure_Pa));
+  }
+  if (out.conductance.size() > 1) out.conductance.front() = out.conductance[1];
+  out.force_N = non_decreasing(out.force_N);
+  return out;
+}
 
 MeteringEdgeFit fit_metering_edge(std::vector<AxialForceFit> fits, const sensor::Spring<double>& spring,
                                   const std::vector<double>& unloaded_friction_N) {
@@ -153,7 +152,7 @@ MeteringEdgeFit fit_metering_edge(std::vector<AxialForceFit> fits, const sensor:
         const auto over_temperature = [&](auto member) {
           std::vector<double> values;
           for (const EdgeColumn& each : columns) values.push_back((each.*member)[r]);
-          return interpolated(known_K, values, edge.temperature_K.at(layer));
+          return interpolate_monotone({known_K, values}, std::vector<double>{edge.temperature_K.at(layer)}).front();
         };
         edge.flow_force_N.node(layer, row, column) = over_temperature(&EdgeColumn::flow_force_N);
         edge.friction_N.node(layer, row, column) = over_temperature(&EdgeColumn::friction_N);

@@ -16,6 +16,16 @@ inline constexpr double same_oil_temperature_K = 1;
 /// Maps of one oil temperature hold so far to either side of it.
 inline constexpr double about_one_temperature_K = 5;
 
+/// One position over the pressure differences that were held, from none on: there is no force, the conductance that of
+/// the lowest level, and the friction to be found.
+struct EdgeLevels {
+  std::vector<double> pressure_Pa;
+  std::vector<double> force_N;     ///< of the flow; does not fall
+  std::vector<double> friction_N;  ///< the first is 0
+  std::vector<double> conductance;
+};
+[[nodiscard]] EdgeLevels levels_at(const AxialForceFit& fit, std::size_t position, double spring_N);
+
 struct MeteringEdgeFit {
   sensor::MeteringEdge<double> edge;
   double lowest_temperature_K;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/calibration/edges/metering_edge_fit.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/numerics/interpolation.hpp"
 #include "spoolflow/numerics/crossing.hpp"
@@ -21,58 +22,47 @@ constexpr double least_share_range = 0.02;  // two edges' flow meters and pressu
 /// One edge at one position, over the pressure difference across it.
 class EdgeAtPosition {
  public:
-  EdgeAtPosition(const AxialForceFit& fit, std::size_t position, double spring_N) {
-    for (const model::AxialForceLoop& loop : fit.loops) {
-      const double pressure_Pa = loop.pressure_difference_Pa[position];
-      if (!(pressure_Pa > known_Pa_.back())) continue;  // a level that the supply could not hold adds nothing
-      known_Pa_.push_back(pressure_Pa);
-      force_N_.push_back(0.5 * (loop.opening_N[position] + loop.closing_N[position]) - spring_N);
-      friction_N_.push_back(0.5 * std::abs(loop.opening_N[position] - loop.closing_N[position]));
-      conductance_.push_back(std::max(loop.flow_m3_per_s[position], 0.0) / std::sqrt(pressure_Pa));
-    }
-    conductance_.insert(conductance_.begin(), conductance_.empty() ? 0.0 : conductance_.front());
-    force_N_ = non_decreasing(force_N_);
+  EdgeAtPosition(const AxialForceFit& fit, std::size_t position, double spring_N)
+      : levels_(levels_at(fit, position, spring_N)) {
     find_unloaded_friction();
   }
 
   [[nodiscard]] double flow_m3_per_s(double pressure_Pa) const {
-    return at(conductance_, pressure_Pa) * std::sqrt(pressure_Pa);
+    return at(levels_.conductance, pressure_Pa) * std::sqrt(pressure_Pa);
   }
   /// Beyond the highest level in proportion to the pressure difference, as by eq. (2).
   [[nodiscard]] double force_N(double pressure_Pa) const {
-    return at(force_N_, pressure_Pa) * std::max(1.0, pressure_Pa / known_Pa_.back());
+    return at(levels_.force_N, pressure_Pa) * std::max(1.0, pressure_Pa / levels_.pressure_Pa.back());
   }
   /// Of the line through the levels, where there is no pressure: at this oil temperature, unlike the spring
   /// recording's.
-  [[nodiscard]] double unloaded_friction_N() const { return friction_N_.front(); }
+  [[nodiscard]] double unloaded_friction_N() const { return levels_.friction_N.front(); }
   [[nodiscard]] double added_friction_N(double pressure_Pa) const {
-    return at(friction_N_, pressure_Pa) - unloaded_friction_N();
+    return at(levels_.friction_N, pressure_Pa) - unloaded_friction_N();
   }
 
  private:
   [[nodiscard]] double at(const std::vector<double>& values, double pressure_Pa) const {
-    return interpolate_monotone({known_Pa_, values}, std::vector<double>{pressure_Pa}).front();
+    return interpolate_monotone({levels_.pressure_Pa, values}, std::vector<double>{pressure_Pa}).front();
   }
   /// Friction is linear in the pressure difference (paper section 2.1.3).
   void find_unloaded_friction() {
-    const auto count = static_cast<double>(friction_N_.size());
+    auto& [pressure_Pa, force_N, friction_N, conductance] = levels_;
+    const auto count = static_cast<double>(friction_N.size() - 1);
     double mean_Pa = 0, mean_N = 0, covariance = 0, variance = 0;
-    for (std::size_t k = 0; k < friction_N_.size(); ++k) {
-      mean_Pa += known_Pa_[k + 1] / count;
-      mean_N += friction_N_[k] / count;
+    for (std::size_t k = 1; k < friction_N.size(); ++k) {
+      mean_Pa += pressure_Pa[k] / count;
+      mean_N += friction_N[k] / count;
     }
-    for (std::size_t k = 0; k < friction_N_.size(); ++k) {
-      covariance += (known_Pa_[k + 1] - mean_Pa) * (friction_N_[k] - mean_N);
-      variance += (known_Pa_[k + 1] - mean_Pa) * (known_Pa_[k + 1] - mean_Pa);
+    for (std::size_t k = 1; k < friction_N.size(); ++k) {
+      covariance += (pressure_Pa[k] - mean_Pa) * (friction_N[k] - mean_N);
+      variance += (pressure_Pa[k] - mean_Pa) * (pressure_Pa[k] - mean_Pa);
     }
     const double slope = variance > 0 ? covariance / variance : 0;
-    friction_N_.insert(friction_N_.begin(), std::max(0.0, mean_N - slope * mean_Pa));
+    friction_N.front() = std::max(0.0, mean_N - slope * mean_Pa);
   }
 
-  std::vector<double> known_Pa_{0.0};
-  std::vector<double> force_N_{0.0};
-  std::vector<double> friction_N_;
-  std::vector<double> conductance_;
+  EdgeLevels levels_;
 };
 
 /// The share of the path's pressure difference that lies over the inlet: where the outlet passes k times its flow.
