@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "spoolflow/analysis/point_analysis.hpp"
+#include "spoolflow/calibration/numerics/interpolation.hpp"
 #include "spoolflow/numerics/crossing.hpp"
 #include "spoolflow/parallel/for_each.hpp"
 
@@ -106,12 +107,6 @@ double flow_band_m3_per_s(const Observer& valve, const uncertainty::WorkingPoint
   const double most_Pa = std::min(point.pressure_difference_Pa + band_Pa, valve.edge.highest_pressure_difference_Pa());
   const double least_Pa = std::max(point.pressure_difference_Pa - band_Pa, 0.0);
   return 0.5 * edge.conductance * (std::sqrt(std::max(most_Pa, point.pressure_difference_Pa)) - std::sqrt(least_Pa));
-}
-
-std::vector<double> spaced(double from, double to, int count) {
-  std::vector<double> out;
-  for (int k = 0; k < count; ++k) out.push_back(from + (to - from) * k / (count - 1));
-  return out;
 }
 
 DitherSetting over_all_points(const DitherStudy& study, std::size_t place, double full_scale_m3_per_s) {
@@ -231,8 +226,9 @@ DitherStudy dither_study(const model::Model& model, const DitherQuestion& questi
   }
   DitherStudy study{.question = question};
   const double largest_A = model.observer->parameters.largest_current_A;
-  study.amplitude_A = spaced(0, question.most_amplitude_share * largest_A, question.amplitudes);
-  study.frequency_Hz = spaced(question.lowest_frequency_Hz, question.highest_frequency_Hz, question.frequencies);
+  study.amplitude_A = calibration::equally_spaced(0, question.most_amplitude_share * largest_A, question.amplitudes);
+  study.frequency_Hz =
+      calibration::equally_spaced(question.lowest_frequency_Hz, question.highest_frequency_Hz, question.frequencies);
   for (const uncertainty::WorkingPoint& point : working_points(model, question.points)) {
     if (const auto held_there = dither_point(model, point)) study.points.push_back(*held_there);
   }

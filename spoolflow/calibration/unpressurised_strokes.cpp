@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -16,12 +15,8 @@ using recording::Channel;
 
 /// Median of what was measured; 0 where nothing was.
 double median_of(const recording::Recording& recording, Channel channel) {
-  if (!recording.has(channel)) return 0;
-  std::vector<double> values;
-  for (const double value : recording[channel]) {
-    if (std::isfinite(value)) values.push_back(value);
-  }
-  return values.empty() ? 0 : numerics::median(std::move(values));
+  const double median = numerics::median(recording.column(channel));
+  return std::isnan(median) ? 0 : median;
 }
 
 /// What the spool travelled at most in one go [m], opening and closing.

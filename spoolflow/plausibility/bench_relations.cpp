@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/numerics/largest_magnitude.hpp"
+#include "spoolflow/numerics/median.hpp"
 #include "spoolflow/plausibility/block_means.hpp"
 #include "spoolflow/plausibility/limits.hpp"
 #include "spoolflow/units/conversion.hpp"
@@ -16,12 +17,6 @@ namespace {
 
 using recording::Channel;
 using recording::Recording;
-
-double median_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 /// Energy: what moving the armature at a held current does to the coil's voltage follows from the force, as the flux
 /// linkage grows by dF/di over the position (dF/di = d flux / dx at one current).
@@ -159,7 +154,7 @@ void add_hydraulic_deviations(std::vector<Deviation>& to, const HydraulicCurves&
       if (set[k] > units::Pa_from_bar(1) && std::isfinite(measured[k])) ratios.push_back(measured[k] / set[k]);
     }
     if (ratios.empty()) continue;
-    const double ratio = median_of(ratios);
+    const double ratio = numerics::median(std::move(ratios));
     to.push_back({.of = "measured over set pressure difference",
                   .shown = fmt::format("{:.2g}", ratio),
                   .over_limit = factor_over(ratio, 1, set_pressure_factor),
@@ -215,7 +210,7 @@ double coil_resistance(const Recording& means) {
       out.push_back(voltage_V[k] / current_A[k]);
   }
   constexpr std::size_t fewest = 20;
-  return out.size() < fewest ? std::nan("") : median_of(out);
+  return out.size() < fewest ? std::nan("") : numerics::median(std::move(out));
 }
 
 void add_resistance_deviation(std::vector<Deviation>& to, const std::vector<const Recording*>& recordings,

@@ -170,9 +170,8 @@ class Collection {
     }
     add_load_cell(magnetic);
     add(std::move(magnetic));
-    InputUncertainty flow = of_residual(InputQuantity::flow_map, residual(model::of_flow_rate),
-                                        sweeps(model_.evidence.axial_force.size(), sensor::flow_map_positions));
-    add(std::move(flow));
+    add(of_residual(InputQuantity::flow_map, residual(model::of_flow_rate),
+                    sweeps(model_.evidence.axial_force.size(), sensor::flow_map_positions)));
     for (const InputQuantity quantity : {InputQuantity::magnetic_load_cell, InputQuantity::axial_load_cell})
       add(campaign_has_force() ? contained(quantity) : limits(quantity, figures_.load_cell));
     add(limits(InputQuantity::flow_meter, figures_.flow_meter));
