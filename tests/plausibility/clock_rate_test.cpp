@@ -41,6 +41,23 @@ TEST(ClockRate, ACoilInItsOwnTimeRaisesNothing) {
     EXPECT_THAT(wrong_clock(recorded_by(seconds), coil), IsEmpty()) << seconds;
 }
 
+/// A coil whose flux is a table's, with an edge's value where there is no number to look up.
+KnownCoil coil_of_a_table() {
+  return {resistance_Ohm, [](double current_A, double position_m) {
+            return flux_Wb(std::isnan(current_A) ? 0 : current_A, std::isnan(position_m) ? 0 : position_m);
+          }};
+}
+
+TEST(ClockRate, MissingValuesRaiseNothing) {
+  for (const Channel channel : {Channel::current, Channel::position, Channel::voltage}) {
+    recording::Recording run = recorded_by(1);
+    for (int k = 1000; k < 2500; ++k) run.column(channel)[k] = NAN;
+    EXPECT_THAT(wrong_clock(run, coil_of_a_table()), IsEmpty()) << recording::name(channel);
+    for (double& value : run.column(channel)) value = NAN;
+    EXPECT_THAT(wrong_clock(run, coil_of_a_table()), IsEmpty()) << recording::name(channel);
+  }
+}
+
 TEST(ClockRate, WhatAnotherScaleMakesOfTheResistanceTooIsNoClock) {
   EXPECT_THAT(wrong_clock(recorded_by(1, 0.5), coil), IsEmpty());
   EXPECT_THAT(wrong_clock(recorded_by(1, 2), coil), IsEmpty());

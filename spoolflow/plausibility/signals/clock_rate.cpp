@@ -44,7 +44,8 @@ std::vector<CoilMean> coil_means(const Recording& run, const KnownCoil& coil) {
       mean.voltage_V += voltage_V[from] / count;
       position_sum_m += position_m[from] / count;
     }
-    mean.flux_Wb = coil.flux_Wb(mean.current_A, position_sum_m);
+    const bool known = std::isfinite(mean.current_A + position_sum_m);  // a table has its edge's value beside it
+    mean.flux_Wb = known ? coil.flux_Wb(mean.current_A, position_sum_m) : std::nan("");
     out.push_back(mean);
   }
   return out;
