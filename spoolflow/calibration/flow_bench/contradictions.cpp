@@ -27,6 +27,16 @@ double median_where(const Recording& recording, const Counts& counts, const Valu
   return out.size() < least_samples ? std::nan("") : numerics::median(std::move(out));
 }
 
+/// "-2.40 to 0.01 mm"
+std::string span_mm(std::span<const double> position_m) {
+  double lowest_m = INFINITY, highest_m = -INFINITY;
+  for (const double each_m : position_m) {
+    lowest_m = std::fmin(lowest_m, each_m);
+    highest_m = std::fmax(highest_m, each_m);
+  }
+  return fmt::format("{:.2f} to {:.2f} mm", 1e3 * lowest_m + 0.0, 1e3 * highest_m + 0.0);  // no -0
+}
+
 /// Current that holds the spool open, and the coil's resistance.
 void judge_coil(std::vector<std::string>& to, const Recording& recording, const ValveFigures& valve) {
   const std::string file = recording.file.filename().string();
@@ -35,10 +45,14 @@ void judge_coil(std::vector<std::string>& to, const Recording& recording, const 
   const auto open = [&](std::size_t k) { return position_m[k] > 0.5 * valve.stroke_m; };
   const double holds_A = median_where(recording, open, [&](std::size_t k) { return current_A[k]; });
   if (std::isnan(holds_A)) {
-    to.push_back(
-        fmt::format("{}: channel position hardly passes half the stroke of {:.2f} mm; its unit or the campaign's "
-                    "stroke_mm is wrong, or the strokes are too short",
-                    file, 1e3 * valve.stroke_m));
+    const bool opens = std::isfinite(median_where(recording, open, [&](std::size_t k) { return position_m[k]; }));
+    to.push_back(opens
+                     ? fmt::format("{}: channel current has no values where the valve is open; look at its column in "
+                                   "the channel map, or record it again",
+                                   file)
+                     : fmt::format("{}: channel position hardly passes half the stroke of {:.2f} mm: it is {}; its "
+                                   "sign, its unit or the campaign's stroke_mm is wrong, or the strokes are too short",
+                                   file, 1e3 * valve.stroke_m, span_mm(position_m)));
     return;
   }
   if (holds_A < 0.01 || holds_A > 30) {

@@ -53,6 +53,11 @@ TEST(FlowBenchContradictions, NameTheChannelWhoseSignOrUnitIsWrong) {
   EXPECT_THAT(after(Channel::flow_reference, 60), ElementsAre(HasSubstr("go with its rated flow")));
 }
 
+TEST(FlowBenchContradictions, NameTheTravelOfAPositionOfTheWrongSignAndACurrentThatIsMissing) {
+  EXPECT_THAT(after(Channel::position, -1), ElementsAre(HasSubstr("it is -2.40 to 0.00 mm; its sign")));
+  EXPECT_THAT(after(Channel::current, NAN), ElementsAre(HasSubstr("channel current has no values where the valve")));
+}
+
 TEST(FlowBenchContradictions, FindAPressureThatIsNotAcrossTheEdge) {
   recording::Recording spoilt = metering();
   for (double& value : spoilt.column(Channel::pressure_difference)) value += 4e6;  // of a port upstream
