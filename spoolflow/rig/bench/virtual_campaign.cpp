@@ -72,6 +72,17 @@ std::string of_whole_valve(const ValveUnderTest& valve) {
 
 constexpr std::string_view campaign_begin = "# What was measured on this virtual valve";
 
+/// Each oil temperature has a recording of its own, named by it.
+void require_each_temperature_once(const std::string& valve, std::vector<double> temperatures_C) {
+  std::ranges::sort(temperatures_C);
+  const auto twice = std::ranges::adjacent_find(temperatures_C);
+  if (twice == temperatures_C.end()) return;
+  throw SettingsError(
+      fmt::format("{}: campaign.oil_temperatures_C has {:g} twice, and both recordings would have one "
+                  "name; leave one out, or give another temperature",
+                  valve, *twice));
+}
+
 }  // namespace
 
 ValveAndCampaign read_valve_and_campaign(const std::string& valve) {
@@ -83,6 +94,7 @@ ValveAndCampaign read_valve_and_campaign(const std::string& valve) {
   campaign.add_choice("campaign.edges", {"joined", "one_at_a_time"},
                       [&](std::size_t choice) { asked.campaign.one_edge_at_a_time = choice == 1; });
   asked.valve = valve.ends_with(".toml") ? read_valve(valve, campaign) : valve_preset(valve, campaign);
+  require_each_temperature_once(valve, asked.campaign.oil_temperatures_C);
   return asked;
 }
 

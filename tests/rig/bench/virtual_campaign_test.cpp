@@ -2,6 +2,8 @@
 #include "spoolflow/rig/bench/virtual_campaign.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <mutex>
 #include <sstream>
@@ -215,6 +217,17 @@ TEST(VirtualCampaign, ReportsProgressThatNeverRunsBackwards) {
                                    }});
   EXPECT_GT(calls, 100);
   EXPECT_GT(last, 0.98);
+}
+
+TEST(VirtualCampaign, RefusesAnOilTemperatureThatIsNamedTwice) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "twice.toml";
+  std::ofstream(file) << "preset = \"size_6\"\n[campaign]\noil_temperatures_C = [30, 50, 30]\n";
+  try {
+    (void)read_valve_and_campaign(file.string());
+    FAIL() << "read";
+  } catch (const SettingsError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("twice.toml: campaign.oil_temperatures_C has 30 twice"));
+  }
 }
 
 TEST(VirtualCampaign, StopsAtTheFirstFailure) {
