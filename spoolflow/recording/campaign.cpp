@@ -171,6 +171,17 @@ TomlTable table_of(const TomlTable& document, std::string_view key) {
   return {*table, document.file, fmt::format("[{}]", key)};
 }
 
+/// What the file of a unit may hold beside `valve`, without which it is no campaign.
+constexpr std::array<std::string_view, 6> unit_keys{"name",        "fluid",    "instruments",
+                                                    "environment", "channels", "recording"};
+
+bool may_be_of_unit(const toml::table& document) {
+  for (const auto& [key, node] : document) {
+    if (std::ranges::count(unit_keys, key.str()) == 0) return false;
+  }
+  return true;
+}
+
 /// All but valve and instruments.
 void read_rest(const TomlTable& document, OutsideFiles outside, Campaign& campaign) {
   const toml::table& read = document.table;
@@ -212,6 +223,12 @@ std::vector<const CampaignRecording*> Campaign::of(Protocol protocol) const {
 Campaign read_campaign(const std::filesystem::path& file, OutsideFiles outside) {
   const toml::table read = read_toml(file);
   const TomlTable document{read, file, "the campaign"};
+  if (may_be_of_unit(read)) {
+    throw RecordingError(
+        fmt::format("{}, line 1: a campaign needs a table [valve]; the file of a unit goes with the "
+                    "model of its type: `spoolflow calibrate UNIT.toml --type TYPE.json -o UNIT.json`",
+                    file.string()));
+  }
   document.allow_only({"valve", "fluid", "instruments", "load", "environment", "tolerances", "channels", "recording"});
   Campaign campaign;
   campaign.valve = valve_of(table_of(document, "valve"));
@@ -224,11 +241,13 @@ Campaign read_campaign(const std::filesystem::path& file, OutsideFiles outside) 
 Campaign read_unit_campaign(const std::filesystem::path& file, const CampaignValve& type, OutsideFiles outside) {
   const toml::table read = read_toml(file);
   const TomlTable document{read, file, "the unit"};
-  document.allow_only({"name", "valve", "fluid", "instruments", "environment", "channels", "recording"});
+  std::vector<std::string> keys(unit_keys.begin(), unit_keys.end());
+  keys.emplace_back("valve");
+  document.allow_only(keys);
   Campaign campaign;
   campaign.valve = type;
   campaign.valve.name = std::filesystem::absolute(file).lexically_normal().parent_path().filename().string();
-  if (const auto name = document.optional_text("name")) campaign.valve.name = *name;
+  if (read.contains("name")) campaign.valve.name = document.text("name");
   if (read.contains("valve")) campaign.valve = unit_valve_of(table_of(document, "valve"), campaign.valve);
   if (read.contains("instruments")) {
     TomlTable instruments = table_of(document, "instruments");

@@ -114,6 +114,20 @@ TEST(Campaign, OfAUnitStatesItsFlowMeterAlone) {
               HasSubstr("unit.toml, line 2: unknown key 'position_uncertainty_mm' in [instruments] of a unit"));
 }
 
+TEST(Campaign, OfAUnitWithoutItsTypeSaysWhereItBelongsAndHasAName) {
+  const std::string run = "[[recording]]\nprotocol = \"operation\"\nfile = \"run.csv\"\n";
+  EXPECT_THAT(
+      refused_campaign("name = \"17\"\n" + run),
+      HasSubstr("campaign.toml, line 1: a campaign needs a table [valve]; the file of a unit goes with the model of "
+                "its type: `spoolflow calibrate UNIT.toml --type TYPE.json"));
+  EXPECT_THAT(refused_campaign("[vale]\nname = \"A\"\n" + run), HasSubstr("did you mean 'valve'?"));
+  EXPECT_THAT(refusal([&] {
+                const TemporaryFile file("unit.toml", "name = \"\"\n" + run);
+                (void)read_unit_campaign(file.path(), {"A", 80.0 / 60000, 0.0024});
+              }),
+              HasSubstr("unit.toml, line 1: the unit needs a key 'name' with a text in quotes"));
+}
+
 TEST(Campaign, RefusesUncertaintiesThatNoInstrumentHas) {
   for (const char* line : {"position_uncertainty_mm = 5e-6", "position_uncertainty_mm = 5", "current_uncertainty_A = 2",
                            "force_uncertainty_N = 1e-4", "pressure_uncertainty_bar = 1e4",
