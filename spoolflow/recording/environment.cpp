@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/recording/channels/allowed_names.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/toml_input.hpp"
 #include "spoolflow/units/conversion.hpp"
@@ -119,6 +120,12 @@ Environment environment_of(const TomlTable& document, const std::string& usual_k
 Environment read_environment(const std::string& name_or_file) {
   if (name_or_file == "bench" || name_or_file == "machine") return of_kind(name_or_file, name_or_file);
   const std::filesystem::path file(name_or_file);
+  if (!std::filesystem::exists(file)) {
+    throw RecordingError(
+        fmt::format("{}: there is no such file{}; an environment is \"bench\", \"machine\" or a TOML file with a table "
+                    "[environment]",
+                    name_or_file, did_you_mean(name_or_file, {"bench", "machine"})));
+  }
   const toml::table document = read_toml(file);
   if (!document.contains("environment")) {
     throw RecordingError(fmt::format(

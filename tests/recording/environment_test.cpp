@@ -67,6 +67,8 @@ TEST(Environment, NamesFileAndLineOfWhatItRefuses) {
   EXPECT_THAT(refused_environment("[environment]\nkind = \"field\"\n"), HasSubstr("allowed: \"bench\""));
   EXPECT_THAT(refused_environment("environment = 3\n"), HasSubstr("environment is a table"));
   EXPECT_THAT(refused_environment("[valve]\n"), HasSubstr("has no table [environment]"));
+  EXPECT_THAT(refusal([] { (void)read_environment("machin"); }),
+              HasSubstr("machin: there is no such file; did you mean 'machine'?; an environment is \"bench\", "));
 }
 
 TEST(Environment, OfACampaignIsTheBenchWhereItSaysNothing) {
