@@ -9,6 +9,7 @@
 
 #include "spoolflow/plausibility/limits.hpp"
 #include "spoolflow/plausibility/relation.hpp"
+#include "spoolflow/recording/channels/channel_unit.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::plausibility {
@@ -178,8 +179,10 @@ std::string standing_channel(const Recording& run, double stroke_m) {
   if (range_of(run.column(Channel::position)) > moving_share * stroke_m) alive.push_back(Channel::flow);
   for (const Channel channel : alive) {
     if (const std::optional<double> value = standing_value(run.column(channel))) {
-      return fmt::format("{} stands still at {:.3g} (SI) all along: look at its wire and its column in the channel map",
-                         recording::name(channel == Channel::flow ? Channel::flow_reference : channel), *value);
+      const Channel shown = channel == Channel::flow ? Channel::flow_reference : channel;
+      const units::Unit unit = recording::usual_unit(shown);
+      return fmt::format("{} stands still at {:.3g} {} all along: look at its wire and its column in the channel map",
+                         recording::name(shown), unit.from_SI(*value), unit.name);
     }
   }
   return {};

@@ -197,6 +197,9 @@ TEST(RunFindings, NameAVoltageThatStandsStillWhileTheCurrentChangesAndNoneOfAnId
   EXPECT_THAT(all_texts(run_findings(known, means_of(run), "run.csv")),
               testing::HasSubstr("voltage stands still at 24"));
   recording::Recording idle = clip(run, 0, 500);
+  std::ranges::fill(run.column(Channel::position), 1.2e-3);
+  EXPECT_THAT(all_texts(run_findings(known, means_of(run), "run.csv")),
+              testing::HasSubstr("position stands still at 1.2 mm"));
   std::ranges::fill(idle.column(Channel::voltage), 0.0);
   std::ranges::fill(idle.column(Channel::flow_reference), 0.0);
   EXPECT_THAT(all_texts(run_findings(known, means_of(idle), "idle.csv")),
