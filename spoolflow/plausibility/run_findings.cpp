@@ -38,7 +38,9 @@ class RunTrial {
   RunTrial(const std::vector<KnownValve>& valve, Recording means)
       : run(std::move(means)),
         valve_(valve),
-        both_(valve.size() > 1 && (recording::has_both_coils(run) || run.has(Channel::current))) {}
+        both_(valve.size() > 1 && (recording::has_both_coils(run) || run.has(Channel::current))) {
+    if (!both_) keep_known_side(run, stroke_m());
+  }
 
   [[nodiscard]] std::vector<Deviation> deviations() const {
     std::vector<Deviation> out;

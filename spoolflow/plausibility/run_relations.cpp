@@ -214,6 +214,19 @@ Recording one_side(const Recording& run, int side) {
   return out;
 }
 
+void keep_known_side(Recording& run, double stroke_m) {
+  constexpr double through_share = 0.6;  // of the stroke, to each side
+  const std::vector<double> position_m = run.column(Channel::position);
+  const auto reaches = [&](int side) {
+    return std::ranges::any_of(position_m, [&](double at_m) { return side * at_m > through_share * stroke_m; });
+  };
+  if (!reaches(1) || !reaches(-1)) return;
+  for (const Channel channel : recording::all_channels) {
+    std::size_t k = 0;
+    std::erase_if(run.column(channel), [&](double) { return position_m[k++] < 0; });
+  }
+}
+
 std::vector<double> expected_flow(const HydraulicCurves& hydraulics, const Recording& run) {
   const std::vector<double>& position_m = run.column(Channel::position);
   const std::vector<double>& pressure_Pa = run.column(Channel::pressure_difference);

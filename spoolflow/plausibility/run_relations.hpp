@@ -11,6 +11,10 @@ namespace spoolflow::plausibility {
 /// active one where that alone was recorded.
 [[nodiscard]] recording::Recording one_side(const recording::Recording& run, int side);
 
+/// Leaves the positions > 0 of a run that goes through the centre of a whole valve: the side that a model of one
+/// direction knows. Of a valve of one direction no run goes so far to both sides of its closed end.
+void keep_known_side(recording::Recording& run, double stroke_m);
+
 /// What edge and pressure difference make of a run's positions, block by block [m3/s]; at the valve's highest pressure
 /// difference where none was recorded.
 [[nodiscard]] std::vector<double> expected_flow(const HydraulicCurves& hydraulics, const recording::Recording& run);

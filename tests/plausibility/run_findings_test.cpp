@@ -293,6 +293,8 @@ TEST(RunFindings, JudgeEachSideOfAWholeValveByTheActiveCoilsCurrentWhereThatAlon
   run.column(Channel::current_a).clear();
   run.column(Channel::current_b).clear();
   EXPECT_THAT(all_texts(run_findings(whole, means_of(run), "run.csv")), testing::IsEmpty());
+  const std::vector<KnownValve> p_to_b{whole.front()};
+  EXPECT_THAT(all_texts(run_findings(p_to_b, means_of(run), "run.csv")), testing::IsEmpty());
   for (double& current_A : run.column(Channel::current)) current_A *= 2;
   EXPECT_THAT(all_texts(run_findings(whole, means_of(run), "run.csv")), testing::HasSubstr("current"));
 }
