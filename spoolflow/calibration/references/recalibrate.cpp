@@ -28,14 +28,26 @@ void require_their_recordings(const std::vector<recording::Recording>& recording
   }
 }
 
+/// Of two references of one kind and recording that are seen in one way.
+bool see_the_same(const recording::Reference& one, const recording::Reference& other) {
+  const bool one_way = one.direction.empty() || other.direction.empty() || one.direction == other.direction;
+  return one.ends == other.ends && one.marks.empty() && other.marks.empty() && one_way;
+}
+
 /// Oil that fills one cylinder fills no other, nor comes from another pump: a mark that overlaps another of its kind
-/// states the same oil again, which counts once.
+/// states the same oil again, which counts once. So does a meter's channel.
 void require_counted_once(const std::vector<recording::Reference>& references) {
   for (std::size_t r = 0; r < references.size(); ++r) {
     for (std::size_t s = 0; s < r; ++s) {
       const recording::Reference &one = references[s], &other = references[r];
       const bool elsewhere = !one.recording.empty() && !other.recording.empty() && one.recording != other.recording;
       if (one.kind != other.kind || elsewhere) continue;
+      if (see_the_same(one, other)) {
+        throw CalibrationError(
+            fmt::format("{}: {} sees the same of the recording as {} ({}), which counts once: leave "
+                        "one of the two out, or give each its own recording = \"...\"",
+                        other.place, other.name, one.name, one.place));
+      }
       for (const recording::TimeMark& mark : other.marks) {
         const auto overlaps = [&](const recording::TimeMark& each) {
           return each.begin_s < mark.end_s && mark.begin_s < each.end_s;

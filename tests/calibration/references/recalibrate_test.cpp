@@ -171,6 +171,14 @@ TEST(Recalibrate, RefusesTwoReferencesThatContradictEachOtherByName) {
   EXPECT_THAT(refusal(fresh_strokes(), {meter(), pump}), HasSubstr("gear pump says +"));
 }
 
+TEST(Recalibrate, AMeterCountsOnce) {
+  Reference again = meter();
+  again.name = "meter 2";
+  EXPECT_THAT(
+      refusal(fresh_strokes(), {meter(), again}),
+      HasSubstr("meter 2 sees the same of the recording as meter (references.toml, line 1), which counts once"));
+}
+
 TEST(Recalibrate, NamesAClosedReferenceWhoseValveNeverCloses) {
   std::vector<recording::Recording> recordings = fresh_strokes();
   for (recording::Recording& recording : recordings)
