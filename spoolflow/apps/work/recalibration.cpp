@@ -13,6 +13,7 @@
 #include "spoolflow/plausibility/known_valve.hpp"
 #include "spoolflow/plausibility/run_findings.hpp"
 #include "spoolflow/plausibility/run_means.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/coil_channels.hpp"
 #include "spoolflow/recording/reader.hpp"
 
@@ -117,6 +118,8 @@ calibration::RecalibratedValve recalibrated_despite(const std::vector<std::strin
     return calibration::recalibrate(model, recordings, references, std::move(how));
   } catch (const calibration::CalibrationError& error) {
     throw calibration::CalibrationError(calibration::with_doubts(error.what(), doubts));
+  } catch (const recording::RecordingError& error) {
+    throw recording::RecordingError(calibration::with_doubts(error.what(), doubts));
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/references/wear_search.hpp"
+#include "spoolflow/numerics/median.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::calibration {
@@ -20,6 +21,7 @@ constexpr double contradiction_deviations = 3.5, between_references_share = 0.00
 struct Apart {
   std::vector<std::size_t> less, more;
   std::size_t all = 0;
+  std::vector<double> seen_shares;  ///< of all its intervals
 };
 
 Apart apart_of(const WearView& view, std::size_t r) {
@@ -29,6 +31,7 @@ Apart apart_of(const WearView& view, std::size_t r) {
   for (const OilRatio& each : view.ratios) {
     if (each.reference != r) continue;
     ++number;
+    out.seen_shares.push_back(each.seen_share);
     const bool seen = each.used || each.log_ratio != 0;
     out.all += seen;
     if (seen && !each.used) (each.log_ratio < level ? out.less : out.more).push_back(number);
@@ -40,22 +43,25 @@ std::string left_out(const MachineEvidence& evidence, const WearView& view, std:
   const recording::Reference& reference = evidence.references[r];
   const Apart apart = apart_of(view, r);
   if (apart.all == 0) {
-    throw CalibrationError(
-        fmt::format("{}: {} is refused: in every interval the sensor sees less than {:.0f} % of its oil pass, or more "
-                    "than {:.0f} %; check the units of what it states, that model and recording belong together, and "
-                    "that the strokes go in the model's direction",
-                    reference.place, reference.name, percent * least_seen_share, percent / least_seen_share));
+    throw CalibrationError(fmt::format(
+        "{}: {} is refused: in every interval the sensor sees less than {:.0f} % of its oil pass, or more than "
+        "{:.0f} %; check the units of what it states, that model and recording belong together, and that the oil goes "
+        "in the model's direction; in the median it sees {:.3g} %",
+        reference.place, reference.name, percent * least_seen_share, percent / least_seen_share,
+        percent * numerics::median(apart.seen_shares)));
   }
   const std::size_t count = apart.less.size() + apart.more.size();
   if (count == 0) return {};
+  const bool metered = reference.kind == recording::ReferenceKind::meter;
   const std::string less = fmt::format("{}", fmt::join(apart.less, ", ")),
                     more = fmt::format("{}", fmt::join(apart.more, ", "));
   std::string what;
   if (!apart.less.empty())
-    what = fmt::format("less oil than in the others in {}: likely another consumer was open", less);
+    what = fmt::format("less oil than in the others in {}: likely {}", less,
+                       metered ? "oil passed beside the meter" : "another consumer was open");
   if (!apart.more.empty())
-    what += fmt::format("{}more oil in {}: likely ends are marked at other times, or the sensor lost the pressure",
-                        what.empty() ? "" : "; ", more);
+    what += fmt::format("{}more oil in {}: likely {}the sensor lost the pressure", what.empty() ? "" : "; ", more,
+                        metered ? "" : "ends are marked at other times, or ");
   if (static_cast<double>(count) > most_left_out * static_cast<double>(apart.all)) {
     throw CalibrationError(fmt::format(
         "{}: {} is refused: {} of its {} intervals contradict the others ({}); mark intervals in which this "

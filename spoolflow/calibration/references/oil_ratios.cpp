@@ -85,7 +85,8 @@ std::vector<OilRatio> oil_ratios(const std::vector<PassedOil>& oil, const std::v
     const double deviation =
         std::hypot(oil[k].uncertainty_m3 / volume_m3, sensor::ReferencePriors::volume_chance_share,
                    sensor::ReferencePriors::volume_chance_flow_share * rated_flow_m3_per_s * seconds_per_m3);
-    out.push_back({oil[k].reference, used ? std::log(volume_m3 / sensor_m3[k]) : 0, deviation, seconds_per_m3, used});
+    out.push_back({oil[k].reference, used ? std::log(volume_m3 / sensor_m3[k]) : 0, deviation, seconds_per_m3, used,
+                   sensor_m3[k] / volume_m3});
   }
   return out;
 }

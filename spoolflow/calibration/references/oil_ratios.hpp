@@ -15,6 +15,7 @@ struct OilRatio {
   double deviation;       ///< standard deviation expected of it beside what all intervals have in common
   double seconds_per_m3;  ///< of the interval over the reference's volume: what a leakage takes of each
   bool used;
+  double seen_share;  ///< the sensor's volume over the reference's
 };
 
 /// Less of a reference's oil is of the other direction; where the reference has so little of the sensor's, it is of

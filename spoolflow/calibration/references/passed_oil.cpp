@@ -8,6 +8,7 @@
 #include "spoolflow/calibration/operation/replay.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/sensor/observer.hpp"
+#include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::calibration {
 
@@ -195,6 +196,33 @@ PassedOil passed_in(const Reference& reference, std::size_t number, const record
   return out;
 }
 
+/// Why a reference shows no oil, and what to do about it.
+std::string why_unseen(const Reference& reference, const recording::Recording& recording, double least_m3_per_s) {
+  if (reference.kind != ReferenceKind::meter) {
+    return "no interval of it lies there whole, with oil that passed; check its figures and how its ends are seen, or "
+           "mark them in a file with ends = \"marks\"";
+  }
+  const double lasts_s = recording[Channel::time].back() - recording[Channel::time].front();
+  if (lasts_s < reference.interval_s) {
+    return fmt::format("it lasts {:.4g} s, and interval_s is {:g}; give a longer recording, or a shorter interval_s",
+                       lasts_s, reference.interval_s);
+  }
+  double lowest = INFINITY, highest = -INFINITY;
+  for (const double flow : recording[Channel::flow_reference]) {
+    lowest = std::fmin(lowest, flow);
+    highest = std::fmax(highest, flow);
+  }
+  const std::string values = lowest > highest
+                                 ? "has no values"
+                                 : fmt::format("is {:.3g} to {:.3g} L/min", units::L_per_min_from_m3_per_s(lowest),
+                                               units::L_per_min_from_m3_per_s(highest));
+  return fmt::format(
+      "flow_reference {}, and no interval of {:g} s without missing values has {:.2g} L/min or more on average; look "
+      "at "
+      "the meter's sign, unit and column",
+      values, reference.interval_s, units::L_per_min_from_m3_per_s(least_m3_per_s));
+}
+
 }  // namespace
 
 std::vector<PassedOil> passed_oil(const Reference& reference, std::size_t number, const recording::Recording& recording,
@@ -210,10 +238,8 @@ std::vector<PassedOil> passed_oil(const Reference& reference, std::size_t number
     if (oil.volume_m3 > least * (mark.end_s - mark.begin_s)) out.push_back(oil);
   }
   if (!out.empty()) return out;
-  throw RecordingError(
-      fmt::format("{}: {} is not seen in {}: no interval of it lies there whole, with oil that passed; check its "
-                  "figures and how its ends are seen, or mark them in a file with ends = \"marks\"",
-                  reference.place, reference.name, recording.file.filename().string()));
+  throw RecordingError(fmt::format("{}: {} is not seen in {}: {}", reference.place, reference.name,
+                                   recording.file.filename().string(), why_unseen(reference, recording, least)));
 }
 
 }  // namespace spoolflow::calibration

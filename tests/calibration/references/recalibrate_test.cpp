@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/reader.hpp"
 #include "tests/calibration/references/known_references.hpp"
 #include "tests/calibration/type/virtual_unit.hpp"
@@ -177,6 +178,34 @@ TEST(Recalibrate, AMeterCountsOnce) {
   EXPECT_THAT(
       refusal(fresh_strokes(), {meter(), again}),
       HasSubstr("meter 2 sees the same of the recording as meter (references.toml, line 1), which counts once"));
+}
+
+TEST(Recalibrate, SaysOfAReferenceInAnotherUnitHowMuchOfItTheSensorSaw) {
+  std::vector<recording::Recording> recordings = fresh_strokes();
+  scale_meter(recordings, 60);
+  EXPECT_THAT(refusal(recordings, {meter()}), HasSubstr("; in the median it sees 1.66 %"));
+}
+
+TEST(Recalibrate, SaysWhyAMeterShowsNothing) {
+  const auto why = [](const std::vector<recording::Recording>& recordings, double interval_s) -> std::string {
+    Reference of = meter();
+    of.interval_s = interval_s;
+    try {
+      static_cast<void>(recalibrate(worn_valve(), recordings, {of}, how()));
+    } catch (const recording::RecordingError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(why(fresh_strokes(), 600), testing::ContainsRegex("it lasts 2[0-9.]+ s, and interval_s is 600; give a "
+                                                                "longer recording, or a shorter interval_s$"));
+  std::vector<recording::Recording> turned = fresh_strokes(), dead = turned;
+  scale_meter(turned, -1);
+  EXPECT_THAT(why(turned, 2),
+              testing::ContainsRegex("flow_reference is -[0-9.]+ to -[0-9.]+ L/min, and no interval of 2 s "
+                                     ".*look at the meter's sign, unit and column"));
+  scale_meter(dead, NAN);
+  EXPECT_THAT(why(dead, 2), HasSubstr("flow_reference has no values, and"));
 }
 
 TEST(Recalibrate, NamesAClosedReferenceWhoseValveNeverCloses) {
