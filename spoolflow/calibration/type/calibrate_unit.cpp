@@ -92,7 +92,7 @@ void require_evidence(const UnitEvidence& evidence, const std::string& file, con
     return;
   throw CalibrationError(fmt::format(
       "{}: the recordings show no forces and no flow of the unit; record unpressurised_strokes, or operation with "
-      "pressure_difference or flow_reference, in which the spool moves over its stroke with the dither off, under "
+      "pressure_difference, in which the spool moves over its stroke with the dither off, under "
       "{:.0f} bar at most, up to which the type was calibrated",
       file, 1e-5 * type.observer->parameters.edge.highest_pressure_difference_Pa()));
 }
@@ -311,8 +311,7 @@ CalibratedUnit calibrate_unit(const model::Model& type, const std::string& type_
   constexpr double reading_share = 0.3;
   progress("the unit against its type", reading_share);
   add_disagreements(provenance.doubts, type, type_file, runs);
-  CalibratedUnit out =
-      unit_despite(provenance.doubts, type, type_file, {unit.valve.name, unit.file.string(), std::move(runs)});
+  CalibratedUnit out = unit_despite(provenance.doubts, type, type_file, {unit.valve.name, unit.file.string(), runs});
   add_edges(provenance.doubts, out);
   if (unit.environment) apply(*unit.environment, out.model);
   if (unit.valve.open_stop_m) set_open_stop(*unit.valve.open_stop_m, out.model);

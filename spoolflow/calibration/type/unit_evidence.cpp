@@ -89,7 +89,7 @@ void UnitEvidence::prepare(const UnitRun& of) {
 numerics::MeterLag UnitEvidence::meter_of(const Run& run, const recording::Recording& recording) const {
   std::vector<double> flow_m3_per_s, reference_m3_per_s;
   for (const Sample& sample : run.samples) {
-    const double pressure_Pa = std::max(0.0, sample.pressure_Pa);
+    const double pressure_Pa = sample.pressure_Pa < 0 ? 0 : sample.pressure_Pa;  // NaN stays one
     flow_m3_per_s.push_back(
         type_.observer->parameters.edge.at(sample.temperature_K, pressure_Pa, sample.position_m).conductance *
         std::sqrt(pressure_Pa));
@@ -166,14 +166,11 @@ void UnitEvidence::find_rows(Run& run) {
     }
     close(run.samples.size());
   };
-  const bool has_forces = !run.pressurised || run.has_pressure || run.has_flow;
   const double highest_Pa = type_.observer->parameters.edge.highest_pressure_difference_Pa();
   for (Sample& sample : run.samples) {
     if (sample.pressure_Pa > (1 + sensor::ripple_share) * highest_Pa) sample.force_row = sample.flow_row = -1;
-    if (!has_forces || (run.has_pressure && std::isnan(sample.pressure_Pa))) sample.force_row = -1;
-    if (!run.has_pressure || std::isnan(sample.flow_m3_per_s)) sample.flow_row = -1;
-    if (!run.has_pressure && run.pressurised && !(sample.flow_m3_per_s > 0.01 * type_.valve.rated_flow_m3_per_s))
-      sample.force_row = -1;
+    if (std::isnan(sample.pressure_Pa)) sample.force_row = sample.flow_row = -1;
+    if (std::isnan(sample.flow_m3_per_s)) sample.flow_row = -1;
   }
   const auto breaks_away = [](const Sample& sample) { return sample.rested_s > 0; };
   number(&Sample::force_row, run.pressurised ? EvidenceOf::force : EvidenceOf::unpressurised_force, force_N,
@@ -233,19 +230,13 @@ void UnitEvidence::add_forces(const Run& run, const sensor::ObserverParameters<d
                      sample.force_row >= 0);
     first = false;
     if (sample.force_row < 0) continue;
-    double pressure_Pa = sample.pressure_Pa;
-    if (run.pressurised && !run.has_pressure) {
-      const double rated_Pa = 0.5 * unit.edge.highest_pressure_difference_Pa();
-      pressure_Pa = std::pow(
-          sample.flow_m3_per_s / unit.edge.at(sample.temperature_K, rated_Pa, sample.position_m).conductance, 2);
-    }
     const sensor::EdgePoint<double> edge =
-        unit.edge.at(sample.temperature_K, std::max(0.0, pressure_Pa), sample.position_m);
+        unit.edge.at(sample.temperature_K, std::max(0.0, sample.pressure_Pa), sample.position_m);
     const double aged = sample.rested_s > 0 ? sensor::ageing(unit.friction, sample.rested_s) : 1;
     const double friction_N =
         unit.friction.operation_ratio * (aged * edge.friction_N + estimate.friction_half_width_N) +
         unknowns.friction_tilt_N * (2 * sample.position_m / type_.valve.stroke_m - 1) +
-        (pressure_Pa < unloaded_Pa ? unknowns.unloaded_friction_N : 0);
+        (sample.pressure_Pa < unloaded_Pa ? unknowns.unloaded_friction_N : 0);
     sums(sample.force_row) += estimate.magnetic_force_N - unit.spring.at(sample.position_m).value -
                               (run.pressurised ? edge.flow_force_N : 0) - sample.direction * friction_N;
   }
@@ -253,15 +244,17 @@ void UnitEvidence::add_forces(const Run& run, const sensor::ObserverParameters<d
 
 void UnitEvidence::add_flows(const Run& run, const sensor::ObserverParameters<double>& unit,
                              const UnitUnknowns& unknowns, Eigen::VectorXd& sums) const {
-  double seen_m3_per_s = NAN;
+  double seen_m3_per_s = NAN, unseen_s = 0;
   numerics::LagShare share_of(run.meter.lag_s + run.meter.dead_time_s);
   for (const Sample& sample : run.samples) {
-    const double pressure_Pa = std::max(0.0, sample.pressure_Pa);
+    const double pressure_Pa = sample.pressure_Pa < 0 ? 0 : sample.pressure_Pa;  // NaN stays one
     const double flow_m3_per_s = unit.edge.at(sample.temperature_K, pressure_Pa, sample.position_m).conductance *
                                  std::sqrt(pressure_Pa) *
                                  (1 + unknowns.conductance_tilt * (2 * sample.position_m / type_.valve.stroke_m - 1));
+    unseen_s += sample.time_step_s;
     if (std::isnan(flow_m3_per_s)) continue;
-    const double share = std::isnan(seen_m3_per_s) ? 1 : share_of(sample.time_step_s);
+    const double share = std::isnan(seen_m3_per_s) ? 1 : share_of(unseen_s);
+    unseen_s = 0;
     if (std::isnan(seen_m3_per_s)) seen_m3_per_s = 0;
     seen_m3_per_s += share * (flow_m3_per_s - seen_m3_per_s);
     if (sample.flow_row >= 0) sums(sample.flow_row) += sample.flow_m3_per_s - (1 + unknowns.meter_gain) * seen_m3_per_s;

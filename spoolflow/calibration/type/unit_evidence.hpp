@@ -67,8 +67,8 @@ enum class EvidenceOf : unsigned char { force, unpressurised_force, breakaway, f
 
 /// Rows of evidence: means over a tenth of a millimetre of travel, or half a second, whichever ends first, of
 /// - force while the spool slides without dither, under pressure by sticking and slipping too: magnetic force less
-///   spring, flow force at the measured pressure difference and friction, as the sensor has them; needs no pressure, or
-///   a measured one or flow;
+///   spring, flow force at the measured pressure difference and friction, as the sensor has them. A flow meter alone
+///   shows none: its lag would pass for friction;
 /// - flow: the meter less conductance times root of the measured pressure difference, seen through the meter's lag;
 /// - the position at the closed end, without current;
 /// - the coil's resistance, where the voltage is measured.

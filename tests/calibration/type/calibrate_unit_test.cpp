@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -14,6 +15,7 @@
 #include "spoolflow/calibration/type/unit_agreement.hpp"
 #include "spoolflow/calibration/type/unit_evidence.hpp"
 #include "spoolflow/recording/reader.hpp"
+#include "tests/calibration/type/unit_folder.hpp"
 #include "tests/calibration/type/virtual_unit.hpp"
 #include "tests/recording/temporary_file.hpp"
 
@@ -24,56 +26,10 @@ using testing::HasSubstr;
 
 constexpr double oil_K = 323.15;
 
-const model::Model& type() {
-  static const model::Model model = [] {
-    model::Model valve = model::read_model(SPOOLFLOW_EXAMPLE_MODEL);
-    // Positions of the virtual unit are free of drift.
-    valve.observer->parameters.position_sensor.drift_m_per_K = 0;
-    return type_model(std::move(valve), tolerances_from({}));
-  }();
-  return model;
+std::string nothing(const std::string&) {
+  return "";
 }
-
-/// Of a valve of one direction.
-template <class... Arguments>
-UnitCalibration calibrated_unit(const Arguments&... arguments) {
-  return calibrate_unit(arguments...).directions.at(0);
-}
-
-/// The type's file, a unit's campaign and its recordings in one folder.
-class UnitFolder {
- public:
-  explicit UnitFolder(const Deviations& deviations, double slip_m = 0)
-      : file_("unit.toml",
-              "name = \"U 17\"\n[[recording]]\nprotocol = \"unpressurised_strokes\"\nfile = \"dry.csv\"\n"
-              "[[recording]]\nprotocol = \"operation\"\nfile = \"wet.csv\"\n") {
-    const sensor::ObserverParameters<double> unit = unit_parameters(type().observer->parameters, deviations);
-    write_strokes(file_.folder() / "dry.csv", unit, {0, 0}, type().valve.stroke_m);
-    const double way_s = slip_m > 0 ? 16 : 6, never_s = 1e9;
-    write_strokes(file_.folder() / "wet.csv", unit, {40, 40}, type().valve.stroke_m, way_s, never_s, slip_m);
-    std::ofstream out(file_.folder() / "type.json");
-    model::write_model(out, type());
-  }
-  [[nodiscard]] UnitCalibration calibrate(std::string_view also = {}) const {
-    const std::filesystem::path file = file_.folder() / "said.toml";
-    {
-      std::ifstream in(file_.path());
-      std::ofstream(file) << in.rdbuf() << also;
-    }
-    const recording::Campaign campaign = recording::read_unit_campaign(file, valve_of_type(type()));
-    return calibrated_unit(type(), (file_.folder() / "type.json").string(), campaign, "test",
-                           [](const std::string&, double) {});
-  }
-  /// Of the run under pressure.
-  [[nodiscard]] std::ptrdiff_t force_rows() const {
-    const recording::Recording wet = recording::read_recording(file_.folder() / "wet.csv", {});
-    const UnitEvidence evidence(type(), {{&wet, recording::Protocol::operation}});
-    return std::ranges::count(evidence.kinds(), EvidenceOf::force);
-  }
-
- private:
-  recording::TemporaryFile file_;
-};
+constexpr std::size_t pressure_column = 4;
 
 /// Flow at a force that balances, from the sensor's chain: what remains wrong of the unit's flow at one point.
 double flow_error(const sensor::ObserverParameters<double>& found, const sensor::ObserverParameters<double>& truth,
@@ -191,6 +147,23 @@ TEST(CalibrateUnit, WhatNoRecordingShowsStaysAtTheTypesSpreadAndIsNamed) {
       EXPECT_TRUE(parameter.seen) << parameter.name;
     }
   }
+}
+
+TEST(CalibrateUnit, AFlowMeterWithoutPressureDifferenceShowsNoForces) {
+  const UnitFolder folder({});
+  folder.spoil("wet.csv", pressure_column, nothing);
+  const UnitCalibration unit = folder.calibrate();
+  for (const Variation each : {Variation::edge_position, Variation::flow_force, Variation::pressure_friction})
+    EXPECT_FALSE(unit.parameters[at(each)].seen) << unit.parameters[at(each)].name;
+}
+
+TEST(CalibrateUnit, SamplesWithoutPressureDifferenceAreNoneWithoutFlow) {
+  const UnitFolder folder({});
+  constexpr std::size_t every = 60;
+  folder.spoil("wet.csv", pressure_column, nothing, every);
+  const UnitParameter edge_width = folder.calibrate().parameters[at(Variation::edge_width)];
+  EXPECT_TRUE(edge_width.seen);
+  EXPECT_NEAR(edge_width.value, 0, 2e-3);
 }
 
 TEST(CalibrateUnit, TheUnitsOwnMachineWidensItsBand) {
