@@ -110,7 +110,7 @@ UnitCalibration of_direction(const model::Model& type, const std::string& type_f
   require_evidence(evidence, unit.file, type);
   const UnitFit fit = most_likely_unit(evidence, prior);
   const Deviations tolerances = tolerances_of(type);
-  UnitCalibration out{type, compared(fit, prior, tolerances), 0, fit.misfit, fit.known, {}};
+  UnitCalibration out{type, compared(fit, prior, tolerances), 0, fit.misfit, fit.known, {}, evidence.shown_by()};
   for (const UnitParameter& parameter : out.parameters) out.chi_square += parameter.deviations * parameter.deviations;
   out.refusal = refusal_of(out, unit.file, type.type->name);
   if (!out.refusal.empty()) return out;
@@ -125,7 +125,7 @@ UnitCalibration of_direction(const model::Model& type, const std::string& type_f
 /// What is known of a direction without recordings: the type's tables and band.
 UnitCalibration unseen_unit(const model::Model& type, const std::string& type_file) {
   const KnownDeviations prior = known_of_type(type, type_file);
-  UnitCalibration out{type, compared({prior, 0, {}, 0}, prior, tolerances_of(type)), 0, 0, prior, {}};
+  UnitCalibration out{type, compared({prior, 0, {}, 0}, prior, tolerances_of(type)), 0, 0, prior, {}, {}};
   out.model.type->unit = true;
   return out;
 }
@@ -146,6 +146,19 @@ void add_edges(std::vector<std::string>& to, const CalibratedUnit& unit) {
     for (const UnitParameter& parameter : direction.parameters) {
       if (parameter.marginal) to.push_back("the unit lies at the edge of its type: " + written(parameter));
     }
+  }
+}
+
+/// Recordings that ought to show what the unit deviates by and do not.
+void add_silent(std::vector<std::string>& to, const model::Model& type, const CalibratedUnit& unit,
+                const std::vector<UnitRun>& runs) {
+  for (const UnitRun& run : runs) {
+    const bool shown = std::ranges::any_of(unit.directions, [&](const UnitCalibration& direction) {
+      return std::ranges::count(direction.shown_by, run.recording->file) > 0;
+    });
+    const bool expected = run.protocol == recording::Protocol::unpressurised_strokes ||
+                          run.recording->has(recording::Channel::pressure_difference);
+    if (expected && !shown) to.push_back(why_it_shows_nothing(run, type));
   }
 }
 
@@ -312,6 +325,7 @@ CalibratedUnit calibrate_unit(const model::Model& type, const std::string& type_
   progress("the unit against its type", reading_share);
   add_disagreements(provenance.doubts, type, type_file, runs);
   CalibratedUnit out = unit_despite(provenance.doubts, type, type_file, {unit.valve.name, unit.file.string(), runs});
+  add_silent(provenance.doubts, type, out, runs);
   add_edges(provenance.doubts, out);
   if (unit.environment) apply(*unit.environment, out.model);
   if (unit.valve.open_stop_m) set_open_stop(*unit.valve.open_stop_m, out.model);

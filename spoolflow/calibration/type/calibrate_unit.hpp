@@ -1,5 +1,6 @@
 #pragma once
 /// From a type's model and a minute of a unit's recordings to the unit's own model.
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,7 +41,8 @@ struct UnitCalibration {
   double chi_square;
   double misfit;  ///< see UnitFit
   KnownDeviations known;
-  std::string refusal;  ///< why it is not of the type; empty: it is
+  std::string refusal;                          ///< why it is not of the type; empty: it is
+  std::vector<std::filesystem::path> shown_by;  ///< the recordings that show its forces or flow
 };
 
 struct CalibratedUnit {

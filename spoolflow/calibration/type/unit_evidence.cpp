@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "spoolflow/calibration/operation/replay.hpp"
 #include "spoolflow/calibration/type/unit_parameters.hpp"
@@ -38,7 +41,9 @@ double flow_row_uncertainty_m3_per_s(const model::Model& type) {
 UnitEvidence::UnitEvidence(const model::Model& type, std::vector<UnitRun> runs) : type_(type) {
   for (const UnitRun& run : runs) {
     meter_gain_deviation_ = std::max(meter_gain_deviation_, run.meter_gain_deviation);
+    const std::size_t before = kinds_.size();
     prepare(run);
+    if (kinds_.size() > before) shown_by_.push_back(run.recording->file);
     add_closed_reading();
     add_resistance(run);
   }
@@ -279,6 +284,30 @@ Eigen::VectorXd UnitEvidence::rows(const UnitUnknowns& unknowns) const {
     out(row) /= counts_[k] * deviations_[k];
   }
   return out;
+}
+
+std::string why_it_shows_nothing(const UnitRun& run, const model::Model& type) {
+  const recording::Recording& recording = *run.recording;
+  const auto span_of = [&](Channel channel) {
+    std::pair span{INFINITY, -INFINITY};
+    for (const double value : recording[channel]) span = {std::fmin(span.first, value), std::fmax(span.second, value)};
+    return span;
+  };
+  std::string why;
+  for (const Channel channel : {Channel::position, Channel::current, Channel::pressure_difference}) {
+    if (recording.has(channel) && span_of(channel).second == -INFINITY)
+      why = fmt::format("channel {} has no values", recording::name(channel));
+  }
+  if (why.empty()) {
+    const auto [lowest_m, highest_m] = span_of(Channel::position);
+    why = fmt::format(
+        "the spool nowhere moves slowly and without dither within the stroke of 0 to {:.2f} mm, under {:.0f} bar at "
+        "most; position is {:.2f} to {:.2f} mm",
+        1e3 * type.valve.stroke_m, 1e-5 * type.observer->parameters.edge.highest_pressure_difference_Pa(),
+        1e3 * lowest_m + 0.0, 1e3 * highest_m + 0.0);  // no -0
+  }
+  return fmt::format("{} shows no forces and no flow of the unit: {}; record it again, or take it out",
+                     recording.file.filename().string(), why);
 }
 
 }  // namespace spoolflow::calibration

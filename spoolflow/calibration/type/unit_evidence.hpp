@@ -1,6 +1,7 @@
 #pragma once
 /// What a unit's own recordings say of how it deviates from its type: rows that are zero where the deviations are
 /// right.
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -82,6 +83,8 @@ class UnitEvidence {
   /// What each of them is of.
   [[nodiscard]] const std::vector<EvidenceOf>& kinds() const { return kinds_; }
   [[nodiscard]] bool any(EvidenceOf kind) const;
+  /// The recordings that show forces or flow.
+  [[nodiscard]] const std::vector<std::filesystem::path>& shown_by() const { return shown_by_; }
   /// Of UnitUnknowns::meter_gain before it is searched: that of the worst meter.
   [[nodiscard]] double meter_gain_deviation() const { return meter_gain_deviation_; }
 
@@ -112,8 +115,12 @@ class UnitEvidence {
   double meter_gain_deviation_ = 0;
   std::vector<Run> runs_;
   std::vector<EvidenceOf> kinds_;
+  std::vector<std::filesystem::path> shown_by_;
   std::vector<double> counts_, deviations_;  ///< of each row: samples, standard deviation
   std::vector<double> closed_readings_m_, resistances_Ohm_;
 };
+
+/// Why a run of which forces or flow are expected shows none of the unit's, and what to do next.
+[[nodiscard]] std::string why_it_shows_nothing(const UnitRun& run, const model::Model& type);
 
 }  // namespace spoolflow::calibration

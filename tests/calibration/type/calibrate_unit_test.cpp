@@ -29,7 +29,7 @@ constexpr double oil_K = 323.15;
 std::string nothing(const std::string&) {
   return "";
 }
-constexpr std::size_t pressure_column = 4;
+constexpr std::size_t position_column = 1, current_column = 2, pressure_column = 4;
 
 /// Flow at a force that balances, from the sensor's chain: what remains wrong of the unit's flow at one point.
 double flow_error(const sensor::ObserverParameters<double>& found, const sensor::ObserverParameters<double>& truth,
@@ -164,6 +164,21 @@ TEST(CalibrateUnit, SamplesWithoutPressureDifferenceAreNoneWithoutFlow) {
   const UnitParameter edge_width = folder.calibrate().parameters[at(Variation::edge_width)];
   EXPECT_TRUE(edge_width.seen);
   EXPECT_NEAR(edge_width.value, 0, 2e-3);
+}
+
+TEST(CalibrateUnit, ARecordingThatShowsNothingOfItIsDoubtedWithTheReason) {
+  const UnitFolder turned({}), dead({}), sound({});
+  turned.spoil("dry.csv", position_column, [](const std::string& value) { return "-" + value; });
+  (void)turned.calibrate();
+  EXPECT_THAT(turned.doubts(), testing::Contains(testing::ContainsRegex(
+                                   "dry.csv shows no forces and no flow of the unit: the spool nowhere moves slowly "
+                                   "and without dither within the stroke of 0 to 2.40 mm.*position is -2.3")));
+  dead.spoil("wet.csv", current_column, nothing);
+  (void)dead.calibrate();
+  EXPECT_THAT(dead.doubts(), testing::ElementsAre(HasSubstr("wet.csv shows no forces and no flow of the unit: channel "
+                                                            "current has no values; record it again")));
+  (void)sound.calibrate();
+  EXPECT_THAT(sound.doubts(), testing::IsEmpty());
 }
 
 TEST(CalibrateUnit, TheUnitsOwnMachineWidensItsBand) {
