@@ -59,6 +59,17 @@ std::string usage_message(const CLI::App& program, const CLI::ParseError& error)
   return error.what();
 }
 
+/// Else an option from a shell variable without a value would be as good as not given.
+void refuse_empty_words(const CLI::App& program) {
+  const CLI::App* command = chosen(program);
+  if (command == nullptr) return;
+  for (const CLI::Option* option : command->get_options()) {
+    if (std::ranges::count(option->results(), "") == 0) continue;
+    throw CLI::ValidationError(option->get_name(),
+                               "is an empty word, as of a shell variable without a value; give one, or leave it out");
+  }
+}
+
 int help_or_refuse(const CLI::App& program, const CLI::ParseError& error) {
   if (error.get_exit_code() == done) {
     OutputFile output("-");
@@ -114,7 +125,10 @@ int run_and_report(void (*add_commands)(CLI::App&), int argc, char** argv) {
   shape_help_page(program);
   program.set_version_flag("--version", std::string(tool_version()), "print the version");
   program.require_subcommand(0, 1);
-  program.parse_complete_callback([&program] { interruption_speaker(speaker(program)); });
+  program.parse_complete_callback([&program] {
+    interruption_speaker(speaker(program));
+    refuse_empty_words(program);
+  });
   add_commands(program);
   const auto report = [&program](const std::string& message) { say("{}: {}\n", speaker(program), message); };
   try {

@@ -101,6 +101,19 @@ TEST(Usage, RefusesAnArgumentTooMany) {
   EXPECT_EQ(spoolflow("surplus").status, 2);
 }
 
+TEST(Usage, RefusesAnEmptyWordByTheNameOfItsOption) {
+  for (const auto& [typed, name] :
+       {std::pair{"estimate model.json '' -o -", "recording: "},
+        std::pair{"estimate model.json run.csv -o out.csv --channels ''", "--channels"},
+        std::pair{"validate model.json run.csv --json - --report ''", "--report"},
+        std::pair{"validate model.json run.csv --json - --environment ''", "--environment"}}) {
+    const Answer answer = spoolflow(typed);
+    EXPECT_EQ(answer.status, 2) << typed;
+    EXPECT_THAT(answer.message, HasSubstr(std::string(name))) << typed;
+    EXPECT_THAT(answer.message, HasSubstr("is an empty word, as of a shell variable without a value")) << typed;
+  }
+}
+
 TEST(Usage, ReportsAFullDiskEvenForHelp) {
   const Answer answer = spoolflow("--help > /dev/full");
   EXPECT_EQ(answer.status, 2);
