@@ -121,6 +121,12 @@ calibration::CalibratedUnit calibrate_unit(const CalibrateArguments& arguments, 
 /// The page of the series and the type as its units are, where they are asked for.
 void write_series(const CalibrateArguments& arguments, const std::vector<CalibrationTask>& tasks,
                   const model::Model& type, const std::vector<std::vector<calibration::SeriesUnit>>& units) {
+  if (units.front().size() < calibration::least_in_series) {
+    throw std::invalid_argument(
+        fmt::format("nothing is written of the series: {} of its {} units could be compared with their type, and a "
+                    "series has {} and more; mend the units that are named above",
+                    units.front().size(), tasks.size(), calibration::least_in_series));
+  }
   const report::ReaderUnits reader_units(arguments.units);
   std::vector<std::filesystem::path> used{arguments.type};
   for (const CalibrationTask& task : tasks) used.insert(used.end(), {task.campaign, task.model});

@@ -101,6 +101,22 @@ TEST_F(TypeAndUnits, NoTwoUnitsOfASeriesHaveOneRecording) {
   EXPECT_FALSE(std::filesystem::exists(folder / "models/12.json"));
 }
 
+TEST_F(TypeAndUnits, ASeriesOfUnitsWithoutTheirRecordingsHasNoPageAndSaysWhy) {
+  record_series();
+  for (const char* unit : {"12", "13", "14"}) std::filesystem::remove(folder / "units" / unit / "stroke.csv");
+  for (const char* first : {"", "units/11/unit.toml "}) {
+    const Answer series =
+        run("calibrate --type type.json " + std::string(first) +
+            "units/12/unit.toml units/13/unit.toml units/14/unit.toml -o models --report series.html");
+    EXPECT_EQ(series.status, 2);
+    EXPECT_THAT(series.message, AllOf(HasSubstr("units/13/stroke.csv does not exist"),
+                                      HasSubstr(*first == 0 ? "nothing is written of the series: 0 of its 3 units"
+                                                            : "nothing is written of the series: 1 of its 4 units")));
+    EXPECT_THAT(files(), Not(Contains("series.html")));
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder / "models/11.json"));
+}
+
 TEST_F(TypeAndUnits, OfAWholeValveBothDirectionsArePlannedFittedAndComparedEachByItself) {
   std::ofstream(folder / "whole.json") << [] {
     model::Model valve = model::read_model(SPOOLFLOW_EXAMPLE_MODEL);
