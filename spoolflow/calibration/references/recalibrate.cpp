@@ -333,7 +333,7 @@ RecalibratedValve gone_back(const model::Model& model, std::size_t state, model:
                                        model.valve.name, state, last));
   }
   how.reasons = {fmt::format("went back to state {}", state)};
-  RecalibratedValve out{model, {}, {}};
+  RecalibratedValve out{model, {}, corrected_in_all_states(model)};
   for (const std::string& direction : model::directions(model)) {
     const model::Model before = model::of_direction(model, direction);
     how.wear = state_of(model, direction, state);

@@ -1,5 +1,8 @@
 #include "spoolflow/calibration/references/wear.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "spoolflow/calibration/numerics/covariance.hpp"
 
 namespace spoolflow::calibration {
@@ -36,6 +39,21 @@ std::vector<model::WearState> wear_states(const model::Model& model) {
 
 model::WearState wear_of(const model::Model& model) {
   return wear_states(model).back();
+}
+
+std::vector<std::string> corrected_in_all_states(const model::Model& model) {
+  std::vector<std::string> out;
+  for (const model::Adaptation& each : model.provenance.adaptations) {
+    if (each.wear || each.corrections.empty()) continue;
+    std::vector<std::string> what;
+    for (const model::Correction& correction : each.corrections)
+      what.push_back(fmt::format("{} ({:.3g}{})", correction.of, correction.value,
+                                 correction.unit == "1" ? "" : " " + correction.unit));
+    out.push_back(fmt::format(
+        "`monitor --adapt` corrected {} by {}, and every state has that; the model before it has the SHA-256 {}",
+        fmt::join(what, ", "), fmt::join(each.files, ", "), each.adapted_from));
+  }
+  return out;
 }
 
 model::Model moved(const model::Model& model, const model::WearState& to) {

@@ -141,6 +141,17 @@ TEST(Recalibrate, GoesBackToAnyEarlierState) {
   EXPECT_THROW(static_cast<void>(gone_back(twice, 3, how())), CalibrationError);
 }
 
+TEST(Recalibrate, NamesWhatMonitorCorrectedWhichNoStateUndoes) {
+  model::Model corrected = worn_valve();
+  EXPECT_THAT(gone_back(corrected, 0, how()).doubts, testing::IsEmpty());
+  corrected.provenance.adaptations.push_back(
+      {"1", "t", std::string(64, 'c'), {"week.csv"}, {{"b", "friction ratio", "1", 1.452, 0.09}}});
+  EXPECT_THAT(gone_back(corrected, 0, how()).doubts,
+              testing::ElementsAre("`monitor --adapt` corrected friction ratio (1.45) by week.csv, and every state has "
+                                   "that; the model before it has the SHA-256 " +
+                                   std::string(64, 'c')));
+}
+
 TEST(Recalibrate, RefusesLessOilThanForcesSayForEdgesOnlyWiden) {
   std::vector<recording::Recording> recordings = fresh_strokes();
   scale_meter(recordings, 0.9);
