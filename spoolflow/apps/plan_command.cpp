@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -22,8 +23,7 @@ namespace spoolflow::apps {
 namespace {
 
 struct PlanArguments {
-  std::string type, table, scenario;
-  std::string valve = "size_6";
+  std::string type, table, scenario, valve;
   double seconds = 60;
   bool quiet = false;
 };
@@ -95,21 +95,29 @@ void print_plan(const model::Model& type, const calibration::PlannedMinute& minu
 }
 
 /// The valve as a scenario names it: a built-in one, or a file by its path from the scenario's folder. Throws
-/// SettingsError where `simulate` could not read it.
-std::string valve_in_scenario(const PlanArguments& arguments) {
-  static_cast<void>(rig::read_valve_and_campaign(arguments.valve));
-  if (!arguments.valve.ends_with(".toml")) return arguments.valve;
+/// SettingsError where `simulate` could not read it, std::invalid_argument for one of other directions than the type's.
+std::string valve_in_scenario(const PlanArguments& arguments, const model::Model& type) {
+  const std::string usual = type.whole() ? "whole_size_6" : "size_6";
+  const std::string& valve = arguments.valve.empty() ? usual : arguments.valve;
+  if (rig::read_valve_and_campaign(valve).valve.whole != type.whole()) {
+    throw std::invalid_argument(
+        fmt::format("--valve {} {}, and the type {} {}: `calibrate --type` would not take its recording; give one such "
+                    "as {}",
+                    valve, type.whole() ? "is not whole" : "is whole", arguments.type,
+                    type.whole() ? "is of both directions" : "is of one", usual));
+  }
+  if (!valve.ends_with(".toml")) return valve;
   const std::filesystem::path folder = std::filesystem::absolute(arguments.scenario).parent_path();
-  return std::filesystem::proximate(arguments.valve, folder).generic_string();
+  return std::filesystem::proximate(valve, folder).generic_string();
 }
 
 void plan(const PlanArguments& arguments) {
   apps::refuse_other_kinds("plan", {{arguments.type, FileKind::model}});
+  const model::Model type = model::read_model(arguments.type);
   Outputs outputs({arguments.type, arguments.valve});
   OutputFile& table = outputs.open(arguments.table);
   OutputFile* const scenario = outputs.open_if_named(arguments.scenario);
-  const std::string valve = scenario == nullptr ? "" : valve_in_scenario(arguments);
-  const model::Model type = model::read_model(arguments.type);
+  const std::string valve = scenario == nullptr ? "" : valve_in_scenario(arguments, type);
   const calibration::PlannedMinute minute = calibration::plan_minute(type, arguments.type, arguments.seconds);
   write_table(table.stream(), minute);
   if (scenario != nullptr) write_scenario(scenario->stream(), minute, valve);
@@ -140,7 +148,9 @@ void add_plan_command(CLI::App& program) {
   CLI::Option* scenario =
       command->add_option("--scenario", arguments->scenario, "the same as a scenario for `spoolflow simulate`")
           ->type_name("SCENARIO.toml");
-  command->add_option("--valve", arguments->valve, "of the scenario: built-in valve or file, size_6 unless given")
+  command
+      ->add_option("--valve", arguments->valve,
+                   "built-in valve or file of the scenario: size_6, whole_size_6 unless given")
       ->type_name("VALVE")
       ->needs(scenario);
   add_quiet(*command, arguments->quiet);

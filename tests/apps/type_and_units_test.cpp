@@ -150,7 +150,20 @@ TEST_F(TypeAndUnits, OfAWholeValveBothDirectionsArePlannedFittedAndComparedEachB
   const Answer plan = run("plan whole.json -o plan.csv --scenario plan.toml");
   EXPECT_EQ(plan.status, 0) << plan.message;
   EXPECT_THAT(content("plan.csv"), HasSubstr(",-100,"));
-  EXPECT_THAT(content("plan.toml"), HasSubstr("second_peak_percent = -100"));
+  EXPECT_THAT(content("plan.toml"),
+              AllOf(HasSubstr("second_peak_percent = -100"), HasSubstr("valve = \"whole_size_6\"")));
+  const auto refused = [&](const std::string& type_and_valve) {
+    const Answer answer = run("plan " + type_and_valve + " -o other.csv --scenario other.toml");
+    EXPECT_EQ(answer.status, 2);
+    EXPECT_THAT(files(), AllOf(Not(Contains("other.csv")), Not(Contains("other.toml"))));
+    return answer.message;
+  };
+  EXPECT_THAT(
+      refused("whole.json --valve size_6"),
+      HasSubstr("--valve size_6 is not whole, and the type whole.json is of both directions: `calibrate --type` "
+                "would not take its recording; give one such as whole_size_6"));
+  EXPECT_THAT(refused("type.json --valve whole_size_6"),
+              HasSubstr("whole_size_6 is whole, and the type type.json is of one"));
 }
 
 TEST_F(TypeAndUnits, AUnitsModelIsTakenByMonitorValidateAndFlashPagesAsAnyValves) {
