@@ -58,8 +58,11 @@ TEST_F(Inspect, OfAFolderSaysWhatIsMissingForWhichModelInMinutes) {
   std::filesystem::create_directory(folder / "bench");
   write("bench/dry.csv", dry);
   write("bench/foreign.csv", "a;b\n1;2\n2;3\n");
+  std::filesystem::create_symlink("no_such_drive/wet.csv", folder / "bench/wet.csv");
   const Answer answer = run("inspect bench");
   EXPECT_EQ(answer.status, 0) << answer.message;
+  EXPECT_THAT(answer.output,
+              HasSubstr("wet.csv                          serves no test: bench/wet.csv: cannot be opened"));
   EXPECT_THAT(answer.output, HasSubstr("unpressurised_strokes"));
   EXPECT_THAT(answer.output, HasSubstr("foreign.csv                      serves no test: "));
   EXPECT_THAT(answer.output, HasSubstr("Model from flow bench: missing, 4 min on the bench:\n  metering"));

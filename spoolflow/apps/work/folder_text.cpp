@@ -111,7 +111,8 @@ std::vector<FolderEntry> folder_entries(const fs::path& folder) {
   }
   std::vector<fs::path> files;
   for (const fs::directory_entry& each : fs::directory_iterator(folder)) {
-    if (each.is_regular_file() && may_be_recording(each.path())) files.push_back(each.path());
+    const bool leads_nowhere = each.is_symlink() && !fs::exists(each.path());  // as where a drive is missing
+    if ((each.is_regular_file() || leads_nowhere) && may_be_recording(each.path())) files.push_back(each.path());
   }
   std::ranges::sort(files);
   for (const fs::path& file : files) out.push_back(entry_of(file, nullptr, nullptr));
@@ -125,8 +126,8 @@ std::vector<FolderEntry> folder_entries(const fs::path& folder) {
 }
 
 std::string folder_text(const fs::path& folder, const std::vector<FolderEntry>& entries) {
-  std::string out = fmt::format("{}: {} recordings\n\n{:<32} {:<22} {:>9}\n", terminal_text(folder.string()),
-                                entries.size(), "file", "protocol", "length");
+  std::string out = fmt::format("{}: {} recording{}\n\n{:<32} {:<22} {:>9}\n", terminal_text(folder.string()),
+                                entries.size(), entries.size() == 1 ? "" : "s", "file", "protocol", "length");
   for (const FolderEntry& entry : entries) {
     if (!entry.why_not.empty()) {
       out += fmt::format("{:<32} serves no test: {}\n", terminal_text(entry.file), terminal_text(entry.why_not));
