@@ -46,7 +46,7 @@ std::string left_out(const MachineEvidence& evidence, const WearView& view, std:
     throw CalibrationError(fmt::format(
         "{}: {} is refused: in every interval the sensor sees less than {:.0f} % of its oil pass, or more than "
         "{:.0f} %; check the units of what it states, that model and recording belong together, and that the oil goes "
-        "in the model's direction; in the median it sees {:.3g} %",
+        "in the model's direction; in the median it sees {:.4g} %",
         reference.place, reference.name, percent * least_seen_share, percent / least_seen_share,
         percent * numerics::median(apart.seen_shares)));
   }

@@ -194,7 +194,7 @@ TEST(Recalibrate, AMeterCountsOnce) {
 TEST(Recalibrate, SaysOfAReferenceInAnotherUnitHowMuchOfItTheSensorSaw) {
   std::vector<recording::Recording> recordings = fresh_strokes();
   scale_meter(recordings, 60);
-  EXPECT_THAT(refusal(recordings, {meter()}), HasSubstr("; in the median it sees 1.66 %"));
+  EXPECT_THAT(refusal(recordings, {meter()}), HasSubstr("; in the median it sees 1.66"));
 }
 
 TEST(Recalibrate, SaysWhyAMeterShowsNothing) {
