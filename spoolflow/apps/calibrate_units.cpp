@@ -81,13 +81,15 @@ void print_series(const calibration::Series& series) {
     say("  Cpk from {} units of the type on: fewer do not show it\n", calibration::least_for_capability);
 }
 
-/// By the checksum of a recording: the unit whose it is.
-using RecordingsOfUnits = std::map<std::string, std::filesystem::path>;
+/// Whose it is: the recording of a unit by its checksum, and the unit's file by its name.
+struct SeenUnits {
+  std::map<std::string, std::filesystem::path> recordings, names;
+};
 
 /// Throws CalibrationError where one of the unit's recordings is another unit's.
-void require_own_recordings(RecordingsOfUnits& seen, const recording::Campaign& unit) {
+void require_own_recordings(SeenUnits& seen, const recording::Campaign& unit) {
   for (const recording::CampaignRecording& entry : unit.recordings) {
-    const auto [other, is_new] = seen.emplace(model::sha256_of_file(entry.file), entry.file);
+    const auto [other, is_new] = seen.recordings.emplace(model::sha256_of_file(entry.file), entry.file);
     if (is_new || std::filesystem::equivalent(other->second.parent_path(), entry.file.parent_path())) continue;
     throw calibration::CalibrationError(
         fmt::format("{}: {} and {} are the same file, and no two units measure the same: give the unit's own recording",
@@ -95,13 +97,23 @@ void require_own_recordings(RecordingsOfUnits& seen, const recording::Campaign& 
   }
 }
 
+void doubt_name_of_another(SeenUnits& seen, const recording::Campaign& unit) {
+  const auto [other, is_new] = seen.names.emplace(unit.valve.name, unit.file);
+  if (is_new) return;
+  say("spoolflow: doubt: {}: the name is {}, as in {}, and pages and monitors tell units apart by it: give each unit "
+      "its "
+      "own\n",
+      unit.file.string(), unit.valve.name, other->second.string());
+}
+
 calibration::CalibratedUnit calibrate_unit(const CalibrateArguments& arguments, const CalibrationTask& task,
-                                           const model::Model& type, RecordingsOfUnits& seen) {
+                                           const model::Model& type, SeenUnits& seen) {
   refuse_other_kinds("calibrate", {{task.campaign, FileKind::settings}});
   const recording::Campaign campaign = recording::read_unit_campaign(
       task.campaign, calibration::valve_of_type(type),
       arguments.allow_outside ? recording::OutsideFiles::allowed : recording::OutsideFiles::refused);
   require_own_recordings(seen, campaign);
+  doubt_name_of_another(seen, campaign);
   std::vector<std::filesystem::path> inputs = files_of(campaign);
   inputs.emplace_back(arguments.type);
   OutputFile output(task.model, inputs);
@@ -187,7 +199,7 @@ void calibrate_units(const CalibrateArguments& arguments, const std::vector<Cali
   const auto add = [&](const std::vector<calibration::UnitCalibration>& directions) {
     for (std::size_t k = 0; k < directions.size(); ++k) units[k].push_back(calibration::series_unit(directions[k]));
   };
-  RecordingsOfUnits seen;
+  SeenUnits seen;
   for (const CalibrationTask& task : tasks) {
     attempt([&] {
       try {

@@ -101,6 +101,18 @@ TEST_F(TypeAndUnits, NoTwoUnitsOfASeriesHaveOneRecording) {
   EXPECT_FALSE(std::filesystem::exists(folder / "models/12.json"));
 }
 
+TEST_F(TypeAndUnits, TwoUnitsOfOneNameAreDoubted) {
+  record_series();
+  const std::string series = "calibrate --type type.json units/11/unit.toml units/12/unit.toml -o models -q";
+  EXPECT_EQ(run(series).message, "");
+  std::filesystem::copy_file(folder / "units/11/unit.toml", folder / "units/12/unit.toml",
+                             std::filesystem::copy_options::overwrite_existing);
+  const Answer copied = run(series);
+  EXPECT_EQ(copied.status, 0);
+  EXPECT_THAT(copied.message,
+              HasSubstr("doubt: units/12/unit.toml: the name is NG6 serial 11, as in units/11/unit.toml"));
+}
+
 TEST_F(TypeAndUnits, ASeriesOfUnitsWithoutTheirRecordingsHasNoPageAndSaysWhy) {
   record_series();
   for (const char* unit : {"12", "13", "14"}) std::filesystem::remove(folder / "units" / unit / "stroke.csv");
