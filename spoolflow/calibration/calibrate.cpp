@@ -22,6 +22,7 @@
 #include "spoolflow/plausibility/channel_findings.hpp"
 #include "spoolflow/plausibility/motion_delay.hpp"
 #include "spoolflow/plausibility/run_findings.hpp"
+#include "spoolflow/plausibility/run_relations.hpp"
 #include "spoolflow/plausibility/zero_findings.hpp"
 
 namespace spoolflow::calibration {
@@ -183,11 +184,15 @@ std::vector<std::string> flow_bench_contradictions(const ReadCampaign& recording
 /// What coil and forces of runs say against the benches, by the model that these make.
 std::vector<std::string> contradictions_in_operation(const model::Model& model, const Recordings& runs) {
   std::vector<std::string> out;
-  const plausibility::KnownCoil coil = plausibility::known_valve(model).front().coil;
+  const plausibility::KnownValve known = plausibility::known_valve(model).front();
   for (const recording::Recording* run : runs) {
     const std::string name = run->file.filename().string();
-    const std::string late = plausibility::induced_delay(coil, plausibility::RunMeans(*run), model.valve.stroke_m);
-    if (!late.empty()) out.push_back(fmt::format("{}: {}", name, late));
+    const plausibility::RunMeans means(*run);
+    const auto add = [&](const std::string& text) {
+      if (!text.empty()) out.push_back(fmt::format("{}: {}", name, text));
+    };
+    add(plausibility::induced_delay(known.coil, means, model.valve.stroke_m));
+    if (!model.whole()) add(plausibility::undeclared_open_stop(known, means.means(run->file)));
     estimation::RunningSensor sensor = estimation::running_sensor(model, estimation::Estimator::observer);
     monitor::Monitor watch(model);
     const estimation::Columns columns = operating_columns(*run);

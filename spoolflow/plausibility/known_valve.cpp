@@ -77,6 +77,7 @@ std::vector<KnownValve> known_valve(const model::Model& model) {
     out.back().position_noise_m = observer->parameters.position_sensor.noise_m;
     out.back().oil_temperature_K = observer->oil_temperature_K;
     out.back().closed_below_m = observer->parameters.closed_below_m;
+    out.back().open_stop_is_known = model.valve.open_stop_m.has_value();
     if (model.whole()) return;
     out.back().coil.flux_Wb = [map = observer->parameters.actuator.coil.flux_linkage.map](
                                   double current_A, double position_m) { return map.at(current_A, position_m).value; };

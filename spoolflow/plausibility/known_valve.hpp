@@ -19,6 +19,7 @@ struct KnownValve {
   model::Range oil_temperature_K{0, 0};  ///< as calibrated; 0: not known
   OpeningCurve opening{};                ///< empty: not known
   double closed_below_m = 0;             ///< the spool covers the edge there; 0: not known
+  bool open_stop_is_known = false;
 };
 
 /// The model's directions: "b", or "a" of a model of that alone, and then "a" of a whole valve.

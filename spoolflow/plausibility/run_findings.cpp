@@ -327,6 +327,7 @@ std::vector<Finding> run_findings(const std::vector<KnownValve>& valve, const Ru
     for (const std::string& line : steady_line_findings(run.steady_lines(), known)) add(false, line);
   }
   if (error) add(error->cannot_be, error->text);
+  if (!trial.both()) add(false, undeclared_open_stop(valve.front(), trial.run));
   // A wrong current, voltage or position looks like both: they are asked for where nothing else speaks against the run.
   if (!out.empty()) return out;
   add(false, induced_delay(valve.front().coil, run, trial.stroke_m()));

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -88,9 +89,13 @@ void add_force_bounds(std::vector<Deviation>& to, const HydraulicCurves& hydraul
                 .blocks = count});
 }
 
-/// Magnetic force against spring, flow force and friction, at the measured pressure difference or that of the flow.
-void add_balance(std::vector<Deviation>& to, const HydraulicCurves& hydraulics, const MagneticCurves& magnetics,
-                 const Recording& run) {
+/// What friction would have to be in a block of a run, at the measured pressure difference or that of the flow.
+struct Imbalance {
+  double position_m, error_N, direction;
+};
+
+std::vector<Imbalance> imbalances(const HydraulicCurves& hydraulics, const MagneticCurves& magnetics,
+                                  const Recording& run) {
   const std::vector<double>& position_m = run.column(Channel::position);
   const std::vector<double>& current_A = run.column(Channel::current);
   const std::vector<double>& pressure_Pa = run.column(Channel::pressure_difference);
@@ -98,10 +103,7 @@ void add_balance(std::vector<Deviation>& to, const HydraulicCurves& hydraulics, 
   const std::vector<double> velocity = velocities(run);
   constexpr double least_share = 0.02;
   const double least_conductance = least_share * std::ranges::max(hydraulics.conductance);
-  struct Block {
-    double error_N, direction;
-  };
-  std::vector<Block> blocks;
+  std::vector<Imbalance> blocks;
   for (std::size_t k = 0; k < position_m.size(); ++k) {
     const double x = position_m[k];
     const double conductance = hydraulics.conductance_at(x);
@@ -109,13 +111,20 @@ void add_balance(std::vector<Deviation>& to, const HydraulicCurves& hydraulics, 
     const double pressure = pressure_Pa.empty() ? squared(std::max(flow[k], 0.0) / conductance) : pressure_Pa[k];
     const double error_N =
         magnetics.at(current_A[k], x) - hydraulics.spring_at(x) - hydraulics.force_per_Pa_at(x) * pressure;
-    if (std::isfinite(error_N)) blocks.push_back({error_N, velocity[k] > 0 ? 1.0 : -1.0});
+    if (std::isfinite(error_N)) blocks.push_back({x, error_N, velocity[k] > 0 ? 1.0 : -1.0});
   }
+  return blocks;
+}
+
+/// Magnetic force against spring, flow force and friction.
+void add_balance(std::vector<Deviation>& to, const HydraulicCurves& hydraulics, const MagneticCurves& magnetics,
+                 const Recording& run) {
+  const std::vector<Imbalance> blocks = imbalances(hydraulics, magnetics, run);
   const auto count = static_cast<double>(blocks.size());
   if (count < least_blocks) return;
   double friction_N = 0, square = 0;
-  for (const Block& block : blocks) friction_N += block.error_N * block.direction / count;
-  for (const Block& block : blocks) square += squared(block.error_N - friction_N * block.direction) / count;
+  for (const Imbalance& block : blocks) friction_N += block.error_N * block.direction / count;
+  for (const Imbalance& block : blocks) square += squared(block.error_N - friction_N * block.direction) / count;
   to.push_back({.of = "balance of forces in operation",
                 .shown = fmt::format("{:.2g} N RMS", std::sqrt(square)),
                 .over_limit = std::sqrt(square) / least_imbalance_N(hydraulics),
@@ -253,6 +262,37 @@ void add_run_deviations(std::vector<Deviation>& to, const HydraulicCurves& hydra
     }
   }
   if (with_pressure && with_flow) add_flow_deviations(to, hydraulics, run);
+}
+
+std::string undeclared_open_stop(const KnownValve& valve, const Recording& run) {
+  if (valve.open_stop_is_known || !run.has(Channel::current) ||
+      (!run.has(Channel::pressure_difference) && !run.has(Channel::flow)))
+    return {};
+  const std::vector<Imbalance> blocks = imbalances(valve.hydraulics, valve.magnetics, longer_blocks(run));
+  if (static_cast<double>(blocks.size()) < least_blocks) return {};
+  constexpr double one_place_m = 5e-6, clear_m = 50e-6, near_share = 0.5;
+  constexpr std::size_t fewest = 10;
+  const double highest_m = std::ranges::max(blocks, {}, &Imbalance::position_m).position_m;
+  std::vector<double> there_N, below_N;
+  for (const auto& [position_m, error_N, direction] : blocks) {
+    if (position_m > highest_m - one_place_m) there_N.push_back(error_N);
+    if (position_m < highest_m - clear_m && position_m > near_share * highest_m) below_N.push_back(error_N);
+  }
+  if (there_N.size() < fewest || below_N.size() < fewest) return {};
+  const auto quantile = [](std::vector<double>& values, std::size_t percent) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() * percent / 100);
+    std::ranges::nth_element(values, at);
+    return *at;
+  };
+  const double held_N = quantile(there_N, 75) - quantile(below_N, 99);
+  if (held_N < std::max(open_stop_frictions * valve.hydraulics.friction_N, least_imbalance_N(valve.hydraulics)))
+    return {};
+  const double position_mm = units::mm_from_m(highest_m);
+  return fmt::format(
+      "the spool stands at {:.3f} mm and no higher, where the solenoid pulls {:.1f} N harder than springs, flow force "
+      "and friction hold below: its open stop; without [valve] open_stop_mm = {:.3f} in the campaign or the unit's "
+      "file, that force passes for flow",
+      position_mm, held_N, position_mm);
 }
 
 }  // namespace spoolflow::plausibility

@@ -1,7 +1,9 @@
 #pragma once
 /// What an operating run must satisfy beside the valve's curves.
+#include <string>
 #include <vector>
 
+#include "spoolflow/plausibility/known_valve.hpp"
 #include "spoolflow/plausibility/relation.hpp"
 #include "spoolflow/plausibility/valve_curves.hpp"
 
@@ -24,5 +26,10 @@ void keep_known_side(recording::Recording& run, double stroke_m);
 /// meter's lag may be shorter than the stretches over which forces are judged (longer_blocks()).
 void add_run_deviations(std::vector<Deviation>& to, const HydraulicCurves& hydraulics, const MagneticCurves& magnetics,
                         const recording::Recording& run);
+
+/// What says that a run's spool stands against its open stop: at its highest position the solenoid pulls harder than
+/// springs, flow force and all friction that the run shows below it hold. Empty without current, position, and flow or
+/// pressure difference, and where the stop is known. `run` is block means of one direction.
+[[nodiscard]] std::string undeclared_open_stop(const KnownValve& valve, const recording::Recording& run);
 
 }  // namespace spoolflow::plausibility

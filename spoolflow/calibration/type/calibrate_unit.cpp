@@ -19,6 +19,7 @@
 #include "spoolflow/plausibility/known_valve.hpp"
 #include "spoolflow/plausibility/run_findings.hpp"
 #include "spoolflow/plausibility/run_means.hpp"
+#include "spoolflow/plausibility/run_relations.hpp"
 #include "spoolflow/recording/coil_channels.hpp"
 #include "spoolflow/recording/reader.hpp"
 
@@ -130,12 +131,19 @@ UnitCalibration unseen_unit(const model::Model& type, const std::string& type_fi
   return out;
 }
 
-/// What speaks against a run of a valve of the type, in that direction where it is of one.
+/// What speaks against a run of a valve of the type, in that direction where it is of one. Strokes without pressure are
+/// asked for an open stop alone.
 void add_doubts(std::vector<std::string>& to, const model::Model& type, const recording::Recording& run,
-                const std::string& direction) {
+                recording::Protocol protocol, const std::string& direction) {
   const bool of_one = type.whole() && direction != through_centre;
   const std::vector<plausibility::KnownValve> known =
       plausibility::known_valve(of_one ? model::of_direction(type, direction) : type);
+  if (protocol == recording::Protocol::unpressurised_strokes) {
+    const std::string stop =
+        plausibility::undeclared_open_stop(known.front(), plausibility::RunMeans(run).means(run.file));
+    if (!stop.empty()) to.push_back(fmt::format("{}: {}", run.file.filename().string(), stop));
+    return;
+  }
   for (plausibility::Finding& finding : plausibility::run_findings(known, plausibility::RunMeans(run), run.file))
     to.push_back(std::move(finding.text));
 }
@@ -302,6 +310,8 @@ CalibratedUnit calibrate_unit(const model::Model& type, const std::string& type_
   std::deque<recording::Recording> recordings;
   std::vector<UnitRun> runs;
   std::vector<const recording::Recording*> strokes;
+  model::Model of_unit = type;
+  if (unit.valve.open_stop_m) of_unit.valve.open_stop_m = unit.valve.open_stop_m;
   for (std::size_t k = 0; k < unit.recordings.size(); ++k) {
     const recording::CampaignRecording& entry = unit.recordings[k];
     progress(fmt::format("reading {}", entry.file.filename().string()), 0);
@@ -316,7 +326,7 @@ CalibratedUnit calibrate_unit(const model::Model& type, const std::string& type_
     provenance.inputs.push_back({std::string(recording::name(entry.protocol)), entry.file.filename().string(),
                                  std::move(sha256), read.size(), read.resampled});
     const std::string direction = direction_of(entry, read, type);
-    if (entry.protocol == recording::Protocol::operation) add_doubts(provenance.doubts, type, read, direction);
+    add_doubts(provenance.doubts, of_unit, read, entry.protocol, direction);
     runs.push_back({&read, entry.protocol, direction, meter_gain_deviation_of(unit)});
   }
   for (plausibility::Finding& finding : plausibility::channel_findings(strokes))
