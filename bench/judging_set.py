@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes a frozen set of recordings of rig valves on which the sensor is judged: clean runs, and one effect of real machines at a time.
 
-    judging_set.py OUT [--tuning] [--quick] [--list] [--spoolflow PROGRAM]
+    judging_set.py OUT [--tuning] [--seed N] [--quick] [--list] [--spoolflow PROGRAM]
 
 Each valve is measured by its own campaign and calibrated; then it runs programmes of other seeds, pressures and speeds than
 those of campaign, documents and tests. OUT gets VALVE/campaign, VALVE/model.json, VALVE/PROGRAMME.EFFECT.csv, the true flow beside it, and
@@ -9,7 +9,8 @@ set.json, by which judge.py finds them and knows that nothing has changed. An OU
 stopped goes on.
 
 --tuning makes the other set: other valves, programmes, sizes of effects and seeds, on which constants may be chosen. Nobody
-looks at the judged set while choosing. --quick makes one valve of the set, --list prints the runs and makes nothing. With the
+looks at the judged set while choosing. --seed N makes a set that nobody has seen: the same programmes and effects with other
+noise and courses, all valves drawn of their series. --quick makes one valve of the set, --list prints the runs and makes nothing. With the
 same program the same bytes come out. Standard library only.
 """
 import concurrent.futures
@@ -266,11 +267,17 @@ def option(arguments, name, otherwise=None):
 
 def main(arguments):
     spoolflow = option(arguments, "--spoolflow", "build/release/bin/spoolflow")
+    seed = option(arguments, "--seed")
     which = "tuning" if "--tuning" in arguments else "judged"
     places = [argument for argument in arguments if not argument.startswith("--")]
     unknown = [argument for argument in arguments if argument.startswith("--") and argument not in ("--tuning", "--quick", "--list")]
     if len(places) != 1 or unknown:
-        sys.exit("judging_set.py OUT [--tuning] [--quick] [--list] [--spoolflow PROGRAM]")
+        sys.exit("judging_set.py OUT [--tuning] [--seed N] [--quick] [--list] [--spoolflow PROGRAM]")
+    if seed:
+        if not seed.isdigit():
+            sys.exit(f"judging_set: --seed {seed}: give a whole number, 0 or more")
+        SEED[which] = int(seed)
+        VALVES[which] = {valve: (preset, beside or "drawn", judged_on) for valve, (preset, beside, judged_on) in VALVES[which].items()}
     runs = planned(which, "--quick" in arguments)
     if "--list" in arguments:
         print(f"{which} set, seeds from {SEED[which]}: {len(runs)} runs")

@@ -181,8 +181,9 @@ std::string standing_channel(const Recording& run, double stroke_m) {
     if (const std::optional<double> value = standing_value(run.column(channel))) {
       const Channel shown = channel == Channel::flow ? Channel::flow_reference : channel;
       const units::Unit unit = recording::usual_unit(shown);
-      return fmt::format("{} stands still at {:.3g} {} all along: look at its wire and its column in the channel map",
-                         recording::name(shown), unit.from_SI(*value), unit.name);
+      const std::string at = *value == 0 ? "0" : fmt::format("{:.3g} {}", unit.from_SI(*value), unit.name);
+      return fmt::format("{} stands still at {} all along: look at its wire and its column in the channel map",
+                         recording::name(shown), at);
     }
   }
   return {};

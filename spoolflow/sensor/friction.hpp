@@ -60,7 +60,7 @@ inline constexpr double engagement_certainty = 0.8;
 inline constexpr double least_stiffness_share = 0.1;
 /// Contacts whose pre-sliding displacement goes on beyond their limit by this length [m] have lost half of their age;
 /// critical slip distance of Dieterich (1979), 1 to 20 um on metal.
-inline constexpr double contact_memory_m = 1e-5;
+inline constexpr double contact_memory_m = 8e-6;
 /// Standard deviations of pre-sliding friction by which friction at rest may exceed the sticking limit.
 inline constexpr double sticking_limit_deviations = 2;
 /// The time at rest divides [s].
