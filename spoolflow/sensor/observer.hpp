@@ -281,6 +281,7 @@ SPOOLFLOW_NOINLINE constexpr void hold(ObserverState<T>& state, const Sample<T>&
   const bool seen = is_number(sample.position_m);
   const T measured_m = drift_free_m(valve.position_sensor, sample.position_m, state.oil.temperature_K);
   if (state.started && within(time_step_s, T(endless_step_s))) {
+    if (seen) follow_unobserved(valve.position_sensor, state.position, measured_m, time_step_s);
     widen_held(valve, {state.pressure, state.force_errors, state.oil_layer},
                {seen ? measured_m : state.position.last_m, seen}, time_step_s, state.last);
   }

@@ -64,6 +64,35 @@ TEST(HeldAnswer, BandFollowsThePositionWhereTheCurrentAloneIsMissing) {
   EXPECT_LT(held.mean_width(), 0.7 * blind.mean_width());
 }
 
+/// Strokes of 6 mm/s, of whose current 50 ms in each 200 are missing, and the position too where `position_m` says so.
+/// Returns how many samples are answered with a fault of the position.
+template <class Position>
+int faults_beside_missing_currents(const Position& position_m) {
+  const ObserverParameters<double> valve = closed_form_observer<double>(closed_form);
+  const Course course =
+      until_they_are_missing().slide(2.3e-3, 0.3).slide(0.5e-3, 0.4).slide(2.3e-3, 0.3).slide(0.5e-3, 0.4);
+  ObserverState<double> state{};
+  int found = 0, count = 0;
+  for (const ValveSample& sample : ClosedFormRun(closed_form, course).sampled(course.end_s(), every_s)) {
+    Sample<double> measured = sample.measured;
+    if (++count % 200 >= 150) {
+      measured.current_A = lost;
+      measured.position_m = position_m(measured.position_m, count);
+    }
+    found += has(step(valve, state, measured).status, Status::position_fault);
+  }
+  return found;
+}
+
+TEST(HeldAnswer, LeavesThePositionSoundWhereTheCurrentAloneIsMissing) {
+  EXPECT_EQ(faults_beside_missing_currents([](double measured_m, int) { return measured_m; }), 0);
+}
+
+TEST(HeldAnswer, TakesNoPositionThatNoSpoolReachesForOneWhereTheCurrentIsMissing) {
+  const auto wild = [](double measured_m, int count) { return count % 200 == 199 ? 0.0 : measured_m; };
+  EXPECT_EQ(faults_beside_missing_currents(wild), 0);
+}
+
 TEST(HeldAnswer, BandOnlyOpensForAsLongAsSamplesAreMissingAndHoldsTheHeldFlow) {
   const ObserverParameters<double> valve = closed_form_observer<double>(closed_form);
   const Course course = until_they_are_missing();

@@ -146,12 +146,18 @@ constexpr T accelerated_m(const PositionSensor<T>& sensor, const PositionState<T
   return quiet ? smaller(hardest_m, T(quiet_jump_m)) : hardest_m;
 }
 
+/// What of a change of the signal [m] the step before it does not explain: a spool may stop in no time, at an end stop
+/// or by friction.
+template <class T>
+SPOOLFLOW_INLINE constexpr T innovation_m(const PositionState<T>& state, T change_m) {
+  return change_m - limited(change_m, smaller(state.step_m, T(0)), larger(state.step_m, T(0)));
+}
+
 /// A change of the signal's step beyond its noise: what is not credible goes into the offset, or is the way back from a
 /// jump that was accepted.
 template <class T>
 constexpr void judge_jump(PositionState<T>& state, T change_m, T credible_m, T time_step_s) {
-  // A spool may stop in no time, at an end stop or by friction.
-  const T innovation_m = change_m - limited(change_m, smaller(state.step_m, T(0)), larger(state.step_m, T(0)));
+  const T innovation_m = detail::innovation_m(state, change_m);
   if (!(magnitude(innovation_m) > credible_m)) return;
   const bool accepted = is_zero(state.offset_m);
   const bool returns = accepted && state.fault_s > T(0) && magnitude(innovation_m - state.elsewhere_m) < credible_m;
@@ -211,6 +217,19 @@ constexpr void begin(PositionState<T>& state, T position_m) {
   state.lone = true;
   state.samples = state.blocks = 0;
   state.motion = Motion::rest;
+}
+
+/// A sample whose forces are missing, at its drift-free position: the step to the next one is judged from there. A
+/// change that the largest acceleration of a calm coil does not explain is left out.
+template <class T>
+constexpr void follow_unobserved(const PositionSensor<T>& sensor, PositionState<T>& state, T position_m,
+                                 T time_step_s) {
+  const T change_m = position_m - state.offset_m - state.last_m;
+  const T credible_m = T(credible_jump_deviations) * sensor.noise_m * state.noise.times + T(credible_jump_m) +
+                       sensor.hardest_acceleration_m_per_s2 * squared(time_step_s);
+  if (magnitude(detail::innovation_m(state, change_m)) > credible_m) return;
+  state.step_m = change_m;
+  state.last_m += change_m;
 }
 
 /// One sample. `drift_m`: see drift_m(). `elastic_m()` >= 0 is how far the contacts give way under the friction that

@@ -223,6 +223,7 @@ constexpr void widen_held(const WholeValveParameters<T>& valve, WholeValveState<
   const bool seen = is_number(sample.position_m);
   const T measured_m =
       drift_free_m(valve.b->position_sensor, sample.position_m - state.zero_m, state.open.oil.temperature_K);
+  if (seen) follow_unobserved(valve.b->position_sensor, state.open.position, measured_m, time_step_s);
   const T signed_m = seen ? measured_m : state.open.position.last_m;
   const T position_m = state.opens_a ? -signed_m : signed_m;
   Estimate<T> held = mirrored(state.opens_a, state.open.last);
