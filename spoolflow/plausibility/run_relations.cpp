@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/numerics/largest_magnitude.hpp"
+#include "spoolflow/numerics/median.hpp"
 #include "spoolflow/numerics/meter_lag.hpp"
 #include "spoolflow/plausibility/block_means.hpp"
 #include "spoolflow/plausibility/limits.hpp"
@@ -279,12 +280,7 @@ std::string undeclared_open_stop(const KnownValve& valve, const Recording& run) 
     if (position_m < highest_m - clear_m && position_m > near_share * highest_m) below_N.push_back(error_N);
   }
   if (there_N.size() < fewest || below_N.size() < fewest) return {};
-  const auto quantile = [](std::vector<double>& values, std::size_t percent) {
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() * percent / 100);
-    std::ranges::nth_element(values, at);
-    return *at;
-  };
-  const double held_N = quantile(there_N, 75) - quantile(below_N, 99);
+  const double held_N = numerics::quantile(std::move(there_N), 0.75) - numerics::quantile(std::move(below_N), 0.99);
   if (held_N < std::max(open_stop_frictions * valve.hydraulics.friction_N, least_imbalance_N(valve.hydraulics)))
     return {};
   const double position_mm = units::mm_from_m(highest_m);

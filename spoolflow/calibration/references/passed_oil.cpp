@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "spoolflow/calibration/operation/replay.hpp"
+#include "spoolflow/numerics/median.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/sensor/observer.hpp"
 #include "spoolflow/units/conversion.hpp"
@@ -49,9 +51,7 @@ double fallen_Pa(std::vector<double> pressure_difference_Pa) {
   constexpr double fallen_share = 0.15, most_samples = 0.9;
   std::erase_if(pressure_difference_Pa, [](double value) { return !std::isfinite(value); });
   if (pressure_difference_Pa.empty()) return 0;
-  const auto at = static_cast<std::ptrdiff_t>(most_samples * static_cast<double>(pressure_difference_Pa.size() - 1));
-  std::ranges::nth_element(pressure_difference_Pa, pressure_difference_Pa.begin() + at);
-  return fallen_share * pressure_difference_Pa[static_cast<std::size_t>(at)];
+  return fallen_share * numerics::quantile(std::move(pressure_difference_Pa), most_samples);
 }
 
 std::vector<recording::TimeMark> stalled_strokes(const sensor::ObserverParameters<double>& valve,

@@ -183,11 +183,17 @@ constexpr T outlast_fault(PositionState<T>& state, T position_m, T time_step_s) 
   return position_m - state.offset_m;
 }
 
+/// How much the signal's noise alone may credibly change its step [m].
+template <class T>
+SPOOLFLOW_INLINE constexpr T credible_noise_m(const PositionSensor<T>& sensor, const PositionState<T>& state) {
+  return T(credible_jump_deviations) * sensor.noise_m * state.noise.times + T(credible_jump_m);
+}
+
 /// A change beyond what is credible is taken out of the signal until it jumps back, or `longest_position_fault_s` long.
 template <class T>
 SPOOLFLOW_INLINE constexpr T without_faults(const PositionSensor<T>& sensor, PositionState<T>& state,
                                             const Sample<T>& sample, const QuietCoil<T>& coil, T position_m) {
-  const T noise_m = T(credible_jump_deviations) * sensor.noise_m * state.noise.times + T(credible_jump_m);
+  const T noise_m = credible_noise_m(sensor, state);
   const T change_m = position_m - state.offset_m - state.last_m;
   const T forgotten_A = coil.current_A * T(current_change_forgotten_per_s / quiet_current_share) * sample.time_step_s;
   state.coil.change_A = larger(magnitude(sample.current_A - state.coil.current_A), state.coil.change_A - forgotten_A);
@@ -225,8 +231,8 @@ template <class T>
 constexpr void follow_unobserved(const PositionSensor<T>& sensor, PositionState<T>& state, T position_m,
                                  T time_step_s) {
   const T change_m = position_m - state.offset_m - state.last_m;
-  const T credible_m = T(credible_jump_deviations) * sensor.noise_m * state.noise.times + T(credible_jump_m) +
-                       sensor.hardest_acceleration_m_per_s2 * squared(time_step_s);
+  const T credible_m =
+      detail::credible_noise_m(sensor, state) + sensor.hardest_acceleration_m_per_s2 * squared(time_step_s);
   if (magnitude(detail::innovation_m(state, change_m)) > credible_m) return;
   state.step_m = change_m;
   state.last_m += change_m;
