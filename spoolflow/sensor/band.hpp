@@ -106,10 +106,12 @@ inline constexpr double flow_residual_factor = 2.1;
 
 /// Half the width that the swing of friction under dither takes, as a share of half of it: peaks that no sample met.
 inline constexpr double swing_deviation_share = 0.03;
-/// Friction may fall with the spool's speed, or oil drag at it, which slow benches do not show: half the width that it
-/// takes, as a share of friction over the speed [s/m], and at most.
-inline constexpr double friction_share_per_speed_s_per_m = 100;
-inline constexpr double most_friction_share_of_speed = 0.2;
+/// Contacts that slide faster are younger, and carry on a film: friction falls with the spool's speed by 4 to 28 % of
+/// what benches at up to this speed [m/s] show (Dieterich 1979; Armstrong-Helouvry 1994), or not at all. Half the width
+/// that it takes, as a share of friction over the speed beyond [s/m], and at most.
+inline constexpr double bench_speed_m_per_s = 1e-4;
+inline constexpr double friction_share_per_speed_s_per_m = 800;
+inline constexpr double most_friction_share_of_speed = 0.24;
 /// Friction that operation has shown to differ from what was calibrated may differ again with speed and place: half the
 /// width that it takes, over the share of friction by which it differs.
 inline constexpr double displaced_friction_factor = 2;
@@ -172,8 +174,8 @@ SPOOLFLOW_INLINE constexpr T unobserved_Pa(const PressureState<T>& pressure, con
 /// and the swing of friction under dither.
 template <class T>
 SPOOLFLOW_INLINE constexpr T motion_deviation_N(const ForceBalance<T>& balance, T velocity_m_per_s, T displaced_ratio) {
-  const T of_speed =
-      smaller(T(friction_share_per_speed_s_per_m) * magnitude(velocity_m_per_s), T(most_friction_share_of_speed));
+  const T beyond_m_per_s = at_least_zero(magnitude(velocity_m_per_s) - T(bench_speed_m_per_s));
+  const T of_speed = smaller(T(friction_share_per_speed_s_per_m) * beyond_m_per_s, T(most_friction_share_of_speed));
   const T sliding_N = T(innovation_factor) * magnitude(balance.residual_force_N - balance.friction_N) +
                       magnitude(balance.friction_N) * (of_speed + T(displaced_friction_factor) * displaced_ratio);
   return (balance.sliding ? sliding_N : T(0)) + T(swing_deviation_share) * balance.half_swing_N;

@@ -151,16 +151,16 @@ struct Unknown {
 class DeclaredEnvironment : public testing::TestWithParam<Unknown> {};
 INSTANTIATE_TEST_SUITE_P(
     Of, DeclaredEnvironment,
-    testing::Values(Unknown{"PositionZero", [](Environment<double>& e) { e.position_m = 40e-6; },
-                            [](int, Sample<double>& s) { s.position_m += 80e-6; }},
-                    Unknown{"PositionGain", [](Environment<double>& e) { e.position_share = 0.03; },
-                            [](int, Sample<double>& s) { s.position_m *= 1.06; }},
+    testing::Values(Unknown{"PositionZero", [](Environment<double>& e) { e.position_m = 70e-6; },
+                            [](int, Sample<double>& s) { s.position_m += 140e-6; }},
+                    Unknown{"PositionGain", [](Environment<double>& e) { e.position_share = 0.05; },
+                            [](int, Sample<double>& s) { s.position_m *= 1.1; }},
                     Unknown{"OilTemperature", [](Environment<double>& e) { e.oil_temperature_K = 5; },
                             [](int, Sample<double>& s) { s.oil_temperature_K -= 10; }},
-                    Unknown{"CurrentGain", [](Environment<double>& e) { e.current_share = 0.01; },
-                            [](int, Sample<double>& s) { s.current_A *= 1.02; }},
-                    Unknown{"Vibration", [](Environment<double>& e) { e.force_N = 2; },
-                            [](int k, Sample<double>& s) { s.current_A += 0.09 * std::sin(0.22 * k); }}),
+                    Unknown{"CurrentGain", [](Environment<double>& e) { e.current_share = 0.02; },
+                            [](int, Sample<double>& s) { s.current_A *= 1.04; }},
+                    Unknown{"Vibration", [](Environment<double>& e) { e.force_N = 3; },
+                            [](int k, Sample<double>& s) { s.current_A += 0.13 * std::sin(0.22 * k); }}),
     [](const auto& unknown) { return unknown.param.name; });
 
 TEST_P(DeclaredEnvironment, OpensTheBandByWhatItDoesToTheFlow) {
