@@ -106,9 +106,9 @@ inline constexpr double flow_residual_factor = 2.1;
 
 /// Half the width that the swing of friction under dither takes, as a share of half of it: peaks that no sample met.
 inline constexpr double swing_deviation_share = 0.03;
-/// Contacts that slide faster are younger, and carry on a film: friction falls with the spool's speed by 4 to 28 % of
-/// what benches at up to this speed [m/s] show (Dieterich 1979; Armstrong-Helouvry 1994), or not at all. Half the width
-/// that it takes, as a share of friction over the speed beyond [s/m], and at most.
+/// Contacts that slide faster are younger, and a film carries: friction may fall with the spool's speed by up to a
+/// quarter of what benches at no more than this speed [m/s] show (Dieterich 1979; Armstrong-Helouvry 1994). Half the
+/// width that it takes, as a share of friction over the speed beyond [s/m], and at most.
 inline constexpr double bench_speed_m_per_s = 1e-4;
 inline constexpr double friction_share_per_speed_s_per_m = 800;
 inline constexpr double most_friction_share_of_speed = 0.24;
