@@ -35,6 +35,12 @@ class Changed(unittest.TestCase):
 
 
 class Recording(examples.InAFolder):
+    def test_of_none_of_its_samples_is_refused_with_its_span(self):
+        run = examples.ramp()
+        for chosen in (lambda: run[run.time_s > 1e9], lambda: run.between(2, 1), lambda: run[5:5]):
+            with self.assertRaisesRegex(spoolflow.Error, r"none of its \d+ samples is chosen; it goes from 0 to .* s$"):
+                chosen()
+
     def test_is_in_SI_whatever_the_file_is_in(self):
         run = spoolflow.read_recording(self.written(
             "run.csv", "time_ms,current_mA,position_mm,oil_temperature_C,flow_reference_L_min,test\n"

@@ -98,6 +98,12 @@ class Refusal(examples.InAFolder):
         for stroke_m in (-1e-3, 0, 2.4, float("nan")):
             with self.assertRaisesRegex(spoolflow.Error, f"^stroke_m: Value {stroke_m} not in range"):
                 spoolflow.read_recording(examples.RAMP, stroke_m=stroke_m)
+        with self.assertRaisesRegex(spoolflow.Error, "^stroke_m: '2.4' is text"):
+            spoolflow.read_recording(examples.RAMP, stroke_m="2.4")
+        with self.assertRaisesRegex(spoolflow.Error, "^type: a type's model or its file is needed, and this is a int"):
+            spoolflow.calibrate(examples.EXAMPLES / "valve_a" / "campaign.toml", type=3)
+        with self.assertRaisesRegex(spoolflow.Error, "^as_type: True or False is needed, not 'yes'"):
+            spoolflow.calibrate(examples.EXAMPLES / "valve_a" / "campaign.toml", as_type="yes")
 
     def test_of_times_that_are_text_names_what_makes_instants(self):
         text = ["2026-01-01 00:00:00.000", "2026-01-01 00:00:00.001"]

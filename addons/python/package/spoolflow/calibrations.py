@@ -59,9 +59,12 @@ def _type_file(type: Optional[AnyModel]) -> Iterator[Optional[str]]:
     if type is None or is_path(type):
         yield None if type is None else os.fsdecode(type)  # type: ignore[arg-type]
         return
+    if not isinstance(type, Model):
+        raise _native.Error(f"type: a type's model or its file is needed, and this is a {type.__class__.__name__}; make one with "
+                            "spoolflow.calibrate(campaign, as_type=True)")
     with tempfile.TemporaryDirectory(prefix="spoolflow-") as folder:
         file = os.path.join(folder, "type.json")
-        type.save(file)  # type: ignore[union-attr]
+        type.save(file)
         yield file
 
 
@@ -109,6 +112,8 @@ def calibrate(campaign: Union[Campaign, Iterable[Campaign]], *, allow_outside: b
 def _refuse_contradictions(count: int, as_type: bool, type: Optional[AnyModel], report: Optional[PathLike]) -> None:
     if count == 0:
         raise _native.Error("no campaign is given; name one at least")
+    if not isinstance(as_type, bool):
+        raise _native.Error(f"as_type: True or False is needed, not {as_type!r}")
     if as_type and type is not None:
         raise _native.Error("as_type makes a type's model, type one of its units: give one of them")
     if count > 1 and (not as_type or count == 2):

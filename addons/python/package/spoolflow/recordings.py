@@ -54,6 +54,8 @@ class Recording(Mapping[str, NDArray[Any]]):
         """A channel by its name; samples by a slice, by their numbers or by a mask: `recording[recording.time_s < 10]`."""
         if isinstance(name, (slice, list, np.ndarray)):
             samples = np.arange(self.samples, dtype=np.int64)[name]
+            if not len(samples):
+                raise _native.Error(f"{self.file}: none of its {self.samples} samples is chosen; it goes from {self._span()}")
             return Recording(_native.picked(self._read, np.ascontiguousarray(samples)), self.file)
         try:
             return self._columns[name]
@@ -132,13 +134,17 @@ class Recording(Mapping[str, NDArray[Any]]):
         axes.set_ylabel(name)
         return axes
 
-    def __repr__(self) -> str:
+    def _span(self) -> str:
         time = self["time_s"]
-        span = f", {time[0]:g} to {time[-1]:g} s" if len(time) else ""
-        return f"<Recording {self.file}: {len(time)} samples{span}: {', '.join(self)}>"
+        return f"{time[0]:g} to {time[-1]:g} s"
+
+    def __repr__(self) -> str:
+        return f"<Recording {self.file}: {self.samples} samples, {self._span()}: {', '.join(self)}>"
 
 
 def _check_stroke(stroke_m: Optional[float]) -> None:
+    if isinstance(stroke_m, str):
+        raise _native.Error(f"stroke_m: {stroke_m!r} is text; give a number [m]")
     if stroke_m is not None and not 0 < stroke_m <= 0.1:
         raise _native.Error(f"stroke_m: Value {stroke_m} not in range 0 to 0.1 m; spools move by 0.5 to 20 mm")
 
