@@ -19,7 +19,10 @@ constexpr std::array<std::string_view, 7> protocol_names{"spring",          "sol
 
 CampaignTolerances tolerances_of(const TomlTable& table) {
   CampaignTolerances out{place_of(table.table, table.file), {}};
-  for (const auto& [key, node] : table.table) out.values.emplace(std::string(key.str()), table.positive(key.str()));
+  for (const auto& [key, node] : table.table) {
+    out.values.emplace(std::string(key.str()), table.positive(key.str()));
+    out.places.emplace(std::string(key.str()), table.place(key.str()));
+  }
   return out;
 }
 

@@ -51,6 +51,7 @@ struct CampaignLoad {
 struct CampaignTolerances {
   std::string place;  ///< "campaign.toml, line 17", for messages
   std::map<std::string, double> values;
+  std::map<std::string, std::string> places{};  ///< of each value, like `place`
 };
 
 struct CampaignRecording {

@@ -9,6 +9,7 @@
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/numerics/fitted_parameters.hpp"
 #include "spoolflow/calibration/type/spread.hpp"
+#include "spoolflow/recording/channels/allowed_names.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -23,10 +24,10 @@ std::string key_of(const VariationAbout& about) {
   return std::string(about.name) + (about.unit == "m" ? "_um" : "");
 }
 
-std::string all_keys() {
+std::vector<std::string> all_keys() {
   std::vector<std::string> keys;
   for (const VariationAbout& about : all_variations()) keys.push_back(key_of(about));
-  return fmt::format("{}", fmt::join(keys, ", "));
+  return keys;
 }
 
 }  // namespace
@@ -36,9 +37,11 @@ Deviations tolerances_from(const recording::CampaignTolerances& written) {
   for (std::size_t k = 0; k < variations; ++k) out[k] = all_variations()[k].tolerance;
   for (const auto& [key, value] : written.values) {
     const auto found = std::ranges::find(all_variations(), key, key_of);
+    const auto stated = written.places.find(key);
+    const std::string& place = stated == written.places.end() ? written.place : stated->second;
     if (found == all_variations().end()) {
-      throw CalibrationError(
-          fmt::format("{}: [tolerances] has no key {}; allowed: {}", written.place, key, all_keys()));
+      throw CalibrationError(fmt::format("{}: unknown key '{}' in [tolerances]{}; allowed: {}", place, key,
+                                         recording::did_you_mean(key, all_keys()), fmt::join(all_keys(), ", ")));
     }
     const bool length = found->unit == "m";
     const double scale = length ? um_per_m : 1, usual = scale * found->tolerance;
@@ -48,8 +51,8 @@ Deviations tolerances_from(const recording::CampaignTolerances& written) {
     const double least = usual / usual_over_least, most = std::min(linear, most_over_usual * usual);
     if (!(value >= least && value <= most)) {
       throw CalibrationError(fmt::format(
-          "{}: {} = {} is not between {:g} and {:g}; give one standard deviation between units of a type, {}",
-          written.place, key, value, least, most,
+          "{}: {} = {} is not between {:g} and {:g}; give one standard deviation between units of a type, {}", place,
+          key, value, least, most,
           length                ? "in um, where it stands in mm times 1000"
           : found->unit == "ln" ? "a natural logarithm"
                                 : "a share: 0.02 of 2 %"));
