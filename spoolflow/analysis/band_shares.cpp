@@ -32,8 +32,8 @@ class BandJudge {
   [[nodiscard]] std::vector<double> reference_by_trial(std::size_t instant) const;
   /// Standard uncertainty of estimate less reference; `meter`: that of the reference meter alone [m3/s].
   [[nodiscard]] double difference_uncertainty(std::size_t instant, double combined, double meter) const;
-  /// Share of the trials whose band holds what the meter shows of the flow `lagged` [m3/s].
-  [[nodiscard]] double share_of_trials(std::size_t instant, double lagged, double meter) const;
+  /// Share of the trials whose band holds what a meter without lag shows of the flow [m3/s].
+  [[nodiscard]] double share_of_trials(std::size_t instant, double flow, double meter) const;
 
   const JudgedRun& judged_;
 };
@@ -108,14 +108,14 @@ double BandJudge::difference_uncertainty(std::size_t instant, double combined, d
   return std::sqrt(std::max(variance, least_flow_variance));
 }
 
-double BandJudge::share_of_trials(std::size_t instant, double lagged, double meter) const {
+double BandJudge::share_of_trials(std::size_t instant, double flow, double meter) const {
   double inside = 0;
   SeededNumbers numbers(judged_.scenario.seed, "reference meter", instant);
   const std::vector<double> shared = reference_by_trial(instant);
   for (std::size_t trial = 0; trial < trials(); ++trial) {
     // What the recording made of the sensor is the truth to a trial, which has a band of its own.
-    const double shown = lagged + shared[trial] +
-                         meter * uncertainty::quantile(uncertainty::Distribution::rectangular, numbers.uniform());
+    const double shown =
+        flow + shared[trial] + meter * uncertainty::quantile(uncertainty::Distribution::rectangular, numbers.uniform());
     const BandedFlow& answer = judged_.answers[trial];
     inside += answer.lower_m3_per_s[instant] <= shown && shown <= answer.upper_m3_per_s[instant] ? 1 : 0;
   }
@@ -134,12 +134,13 @@ BandShares BandJudge::shares(const RunResult& result) const {
     ++out.instants;
     const double meter = meter_share * std::abs(reference);
     const double u = difference_uncertainty(k, result.combined_m3_per_s[k], meter);
-    const double lower = result.lower_m3_per_s[k];
-    const double upper = result.upper_m3_per_s[k];
-    out.in_band += lower <= reference && reference <= upper ? 1 : 0;
-    out.in_band_by_budget += share_within(k, lower - lagged[k], upper - lagged[k], u);
-    out.in_band_by_trials += share_of_trials(k, lagged[k], meter);
-    out.in_budget_interval += std::abs(reference - lagged[k]) <= result.coverage_factor * u ? 1 : 0;
+    // The reference shows the flow late: it differs from what it would show of the answer.
+    const double error = reference - lagged[k], flow = result.flow_m3_per_s[k];
+    const double below = result.lower_m3_per_s[k] - flow, above = result.upper_m3_per_s[k] - flow;
+    out.in_band += below <= error && error <= above ? 1 : 0;
+    out.in_band_by_budget += share_within(k, below, above, u);
+    out.in_band_by_trials += share_of_trials(k, flow, meter);
+    out.in_budget_interval += std::abs(error) <= result.coverage_factor * u ? 1 : 0;
   }
   const double n = std::max(1.0, static_cast<double>(out.instants));
   for (double* share : {&out.in_band, &out.in_band_by_budget, &out.in_band_by_trials, &out.in_budget_interval})

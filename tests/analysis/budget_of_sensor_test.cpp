@@ -10,6 +10,7 @@
 
 #include "spoolflow/analysis/point_analysis.hpp"
 #include "spoolflow/analysis/run_analysis.hpp"
+#include "spoolflow/analysis/run_function.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
 
 namespace spoolflow::analysis {
@@ -267,6 +268,24 @@ TEST(BudgetAlongARun, PredictsTheShareInTheBandThatAReferenceShowsWhoseErrorsAre
     held.push_back(shares.in_band);
   }
   EXPECT_GT(held.back(), held.front() + 0.04) << "a wider band holds more";
+}
+
+TEST(BudgetAlongARun, TheLagOfTheMeterIsNoErrorOfTheSensor) {
+  constexpr double lag_s = 0.2;
+  model::Model narrow = example();
+  narrow.observer->parameters.band.coverage_factor *= 0.02;
+  const RunSamples run = course(false);
+  const std::vector<double> late = RunFunction(narrow, Estimator::observer, run).lagged_m3_per_s(lag_s);
+  Scenario scenario = of_the_sensor_alone();
+  scenario.run.reference_lag_ms = 1e3 * lag_s;
+  const BandShares lagging = *beside(narrow, scenario, [&](std::size_t k) { return late[k]; }).shares;
+  EXPECT_EQ(lagging.in_band, 1);
+  EXPECT_EQ(lagging.in_budget_interval, 1);
+  scenario.run.reference_lag_ms = 0;
+  const BandShares prompt = *beside(narrow, scenario, [&](std::size_t k) { return late[k]; }).shares;
+  EXPECT_LT(prompt.in_band, 0.9);
+  EXPECT_DOUBLE_EQ(lagging.in_band_by_budget, prompt.in_band_by_budget);
+  EXPECT_DOUBLE_EQ(lagging.in_band_by_trials, prompt.in_band_by_trials);
 }
 
 TEST(BudgetAlongARun, ErrorsOfOilAndMeterShowOnAnotherBenchOnly) {

@@ -123,9 +123,9 @@ void show_run_budget(HtmlPage& page, const analysis::RunAnalysis& run, double fu
           result.shares->instants, percent(result.shares->in_band), percent(result.shares->in_band_by_budget),
           percent(result.shares->in_band_by_trials), percent(result.shares->in_budget_interval),
           result.shares->other_bench
-              ? "The errors of oil and flow meters count in these, and the reference meter's lag."
+              ? "The errors of oil and flow meters count in these; the reference meter's lag is taken out."
               : "The reference is taken to share oil and flow meter with the calibration, so that their errors do not "
-                "show; its lag counts."));
+                "show; its lag is taken out."));
     }
     page.figure(course(result));
     page.chart(
