@@ -86,8 +86,7 @@ std::string place_of(const toml::node& node, const std::filesystem::path& file) 
 void TomlTable::allow_only(const std::vector<std::string>& allowed) const {
   for (const auto& [key, node] : table) {
     if (std::ranges::find(allowed, key.str()) != allowed.end()) continue;
-    throw RecordingError(fmt::format("{}: unknown key '{}' in {}{}; allowed: {}", place_of(node, file), key.str(), name,
-                                     did_you_mean(key.str(), allowed), listed(allowed)));
+    throw RecordingError(unknown_key(place_of(node, file), key.str(), name, allowed));
   }
 }
 

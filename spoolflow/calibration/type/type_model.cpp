@@ -39,10 +39,8 @@ Deviations tolerances_from(const recording::CampaignTolerances& written) {
     const auto found = std::ranges::find(all_variations(), key, key_of);
     const auto stated = written.places.find(key);
     const std::string& place = stated == written.places.end() ? written.place : stated->second;
-    if (found == all_variations().end()) {
-      throw CalibrationError(fmt::format("{}: unknown key '{}' in [tolerances]{}; allowed: {}", place, key,
-                                         recording::did_you_mean(key, all_keys()), fmt::join(all_keys(), ", ")));
-    }
+    if (found == all_variations().end())
+      throw CalibrationError(recording::unknown_key(place, key, "[tolerances]", all_keys()));
     const bool length = found->unit == "m";
     const double scale = length ? um_per_m : 1, usual = scale * found->tolerance;
     const double linear = length                ? largest_length_m * um_per_m

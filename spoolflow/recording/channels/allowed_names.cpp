@@ -27,4 +27,10 @@ std::string listed(const std::vector<std::string>& names) {
   return out;
 }
 
+std::string unknown_key(std::string_view place, std::string_view key, std::string_view table,
+                        const std::vector<std::string>& allowed) {
+  return fmt::format("{}: unknown key '{}' in {}{}; allowed: {}", place, key, table, did_you_mean(key, allowed),
+                     listed(allowed));
+}
+
 }  // namespace spoolflow::recording

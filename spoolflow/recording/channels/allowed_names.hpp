@@ -13,4 +13,8 @@ namespace spoolflow::recording {
 /// "a, b, c"; a long list is cut and says how many more there are.
 [[nodiscard]] std::string listed(const std::vector<std::string>& names);
 
+/// "PLACE: unknown key 'KEY' in TABLE; did you mean 'OTHER'?; allowed: a, b, c".
+[[nodiscard]] std::string unknown_key(std::string_view place, std::string_view key, std::string_view table,
+                                      const std::vector<std::string>& allowed);
+
 }  // namespace spoolflow::recording
