@@ -1,13 +1,15 @@
 #!/bin/sh
-# ci/long.sh [SECONDS [UNITS]]: what takes too long for every day: clang-tidy; the tests under sanitizers of what takes no foreign
+# ci/long.sh [SECONDS [UNITS [SEEDS]]]: what takes too long for every day: clang-tidy; the tests under sanitizers of what takes no foreign
 # file apart and of live and fleet; the longest walks, FMUs from their sources, RISC-V; `live` killed at fifty instants, its
 # parsers fuzzed for SECONDS each (an hour where none are given), fleets whose parts are killed, 500 valves at 1 kHz for as long,
-# the page of 200, the playground's build, and UNITS of a type (200 where none are given).
+# the page of 200, the playground's build, and UNITS of a type (200 where none are given). Fleets are killed at SEEDS instants (20),
+# large ones for ten minutes or SECONDS, whichever is less, but a minute at the least.
 # Prints figures and, at the end, its time; the exit status covers clang-tidy, sanitizers, kills, fleets, fuzzing, the page, the
 # playground and the type's bands.
 set -eu
 cd "$(dirname "$(readlink -f "$0")")/.."
-seconds=${1:-3600} units=${2:-200}
+seconds=${1:-3600} units=${2:-200} seeds=${3:-20}
+large=$((seconds > 600 ? 600 : seconds < 60 ? 60 : seconds))
 status=0
 begin=$(date +%s)
 part() { echo "== $((($(date +%s) - begin) / 60)) min: $1"; }
@@ -17,19 +19,19 @@ ci/build.sh release benchmarks
 ci/build.sh release rig_findings
 ci/build.sh sanitize all -DSPOOLFLOW_SANITIZE_ALL=ON
 part "clang-tidy, and tests under sanitizers that read nothing foreign"
-ctest --test-dir build/release -L long -j "$(nproc)" --output-on-failure || status=1
+ctest --test-dir build/release -L long -j "$(($(nproc) + 1))" --output-on-failure || status=1
 part "50 kills"
 SPOOLFLOW_KILLS=50 build/release/addons/live/tests/live_test --gtest_filter='Kills.*' --gtest_brief=1 || status=1
 for name in live_datagram live_csv live_site live_http fleet_block; do
   ci/fuzz.sh "$seconds" "$name" || status=1
 done
-part "fleets whose parts are killed, 20 seeds, and one with 200 valves for ten minutes"
+part "fleets whose parts are killed, $seeds seeds, and one with 200 valves for $large s"
 ci/build.sh release fleet_reference
 for kind in single cluster; do
   /usr/bin/python3 addons/fleet/tests/faults_test.py build/release/bin/spoolflow build/release/addons/fleet/tests/reference/fleet_reference examples $kind \
-    $(seq 1 20) || status=1
+    $(seq 1 "$seeds") || status=1
   /usr/bin/python3 addons/fleet/tests/faults_test.py build/release/bin/spoolflow build/release/addons/fleet/tests/reference/fleet_reference examples $kind 1 \
-    --show --large || status=1
+    --show "--large=200,$large" || status=1
 done
 part "500 valves"
 build/release/bench/live_load build/release/bin/spoolflow examples/live/size_6.json 500 "$seconds"
