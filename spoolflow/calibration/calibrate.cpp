@@ -313,6 +313,11 @@ model::Model calibrate(const recording::Campaign& campaign, const std::string& t
   for (const std::string& each : recordings.directions())
     std::ranges::move(known_quantities(recordings.of(each), model::of_direction(out, each)),
                       std::back_inserter(out.provenance.quantities));
+  for (const std::string& each : recordings.directions()) {
+    const EquivalentBenches* flow_bench = recordings.of(each).flow_bench;
+    std::string scale = flow_bench == nullptr ? std::string() : doubtful_scale(flow_bench->force_over_jet);
+    if (!scale.empty()) out.provenance.doubts.push_back(std::move(scale));
+  }
   const Recordings runs = whole ? recordings.through_centre() : recordings.of(direction).operation;
   std::ranges::move(contradictions_in_operation(out, runs), std::back_inserter(out.provenance.doubts));
   progress("done", 1.0);

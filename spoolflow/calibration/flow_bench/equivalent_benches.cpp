@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "spoolflow/calibration/fits/bench_strokes.hpp"
 #include "spoolflow/calibration/flow_bench/conductance_fit.hpp"
 #include "spoolflow/calibration/flow_bench/flow_bench_fit.hpp"
@@ -185,8 +187,7 @@ double scale_uncertainty(const EquivalentBenches& benches, const FlowBenchFit& f
     const Eigen::Index middle = fit.layout.map_at(fit.layout.currents.count / 2, fit.layout.places.count / 2);
     return 2 * std::sqrt(std::max(0.0, fit.forces.covariance(middle, middle)));
   }
-  if (benches.known.empty()) return coenergy_scale_95;
-  return std::abs(benches.known.back().parameters.back().value - 1) + jet_force_95;
+  return std::isnan(benches.force_over_jet) ? coenergy_scale_95 : std::abs(benches.force_over_jet - 1) + jet_force_95;
 }
 
 double largest_voltage_V(const FlowBenchRecordings& recordings) {
@@ -254,7 +255,8 @@ EquivalentBenches equivalent_benches(const FlowBenchRecordings& recordings, cons
                         measured.actuator.has_value(),
                         measured.spring.has_value(),
                         !measured.axial.empty(),
-                        0};
+                        0,
+                        std::nan("")};
   std::vector<ConductanceFit> flows;
   for (const Recording* metering : recordings.metering) {
     const ConductanceFit& flow = flows.emplace_back(fit_conductance(*metering, stroke_m));
@@ -277,8 +279,21 @@ EquivalentBenches equivalent_benches(const FlowBenchRecordings& recordings, cons
       out.axial_force_maps.push_back(
           axial_force_of(fit, conductance_of(map), "axial force, from force rig and flow bench", stroke_m));
   }
+  if (!out.known.empty() && !measured.spring && measured.axial.empty())
+    out.force_over_jet = out.known.back().parameters.back().value;
   out.force_scale_95 = scale_uncertainty(out, fit, measured);
   return out;
+}
+
+std::string doubtful_scale(double force_over_jet) {
+  constexpr double most = 1.6;  // valves of the rig and of other simulators have 0.8 to 1.1
+  if (std::isnan(force_over_jet) || (force_over_jet < most && force_over_jet > 1 / most)) return {};
+  return fmt::format(
+      "the coil's coenergy makes the flow force {:.2g} times that of a jet at 69 degrees, {:.2g} to {:.2g} is usual: "
+      "the "
+      "scale of the voltage, of the current or of the flow meter is wrong, or the spool is compensated; a spring or "
+      "axial_force_map of a force rig would tell",
+      force_over_jet, 1 / most, most);
 }
 
 }  // namespace spoolflow::calibration

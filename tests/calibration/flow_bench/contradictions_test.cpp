@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "spoolflow/calibration/flow_bench/equivalent_benches.hpp"
+
 namespace spoolflow::calibration {
 namespace {
 
@@ -51,6 +53,35 @@ TEST(FlowBenchContradictions, NameTheChannelWhoseSignOrUnitIsWrong) {
   EXPECT_THAT(after(Channel::pressure_difference, 1e-3), ElementsAre(HasSubstr("channel pressure_difference is")));
   EXPECT_THAT(after(Channel::flow_reference, -1), ElementsAre(HasSubstr("channel flow_reference is")));
   EXPECT_THAT(after(Channel::flow_reference, 60), ElementsAre(HasSubstr("go with its rated flow")));
+}
+
+/// The flow with the spool closed, by the pressure difference [Pa].
+template <class Leakage>
+std::vector<std::string> with_closed_flow(const Leakage& of_Pa) {
+  recording::Recording out = metering();
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    double& position_m = out.column(Channel::position)[k];
+    double& flow_m3_per_s = out.column(Channel::flow_reference)[k];
+    if (position_m < 3e-4) position_m = flow_m3_per_s = 0;  // it rests there
+    flow_m3_per_s += of_Pa(out.column(Channel::pressure_difference)[k]);
+  }
+  return contradictions_of({{}, {&out}, {}}, figures);
+}
+
+TEST(FlowBenchContradictions, NameAMetersZeroAndNoLeakage) {
+  constexpr double litre_per_minute = 1 / 60e3;
+  EXPECT_THAT(with_closed_flow([](double) { return 2 * litre_per_minute; }),
+              ElementsAre(HasSubstr("channel flow_reference is 2 L/min while the spool is closed")));
+  EXPECT_THAT(with_closed_flow([](double) { return -2 * litre_per_minute; }), ElementsAre(HasSubstr("is -2 L/min")));
+  EXPECT_THAT(with_closed_flow([](double Pa) { return 2 * litre_per_minute * std::sqrt(Pa / 6e6); }), IsEmpty());
+}
+
+TEST(FlowBenchScale, IsDoubtedWhereForcesAreHalfThoseOfAJet) {
+  EXPECT_EQ(doubtful_scale(0.8), "");
+  EXPECT_EQ(doubtful_scale(1.1), "");
+  EXPECT_EQ(doubtful_scale(std::nan("")), "");
+  EXPECT_THAT(doubtful_scale(0.5), HasSubstr("makes the flow force 0.5 times that of a jet"));
+  EXPECT_THAT(doubtful_scale(2), HasSubstr("the scale of the voltage, of the current or of the flow meter is wrong"));
 }
 
 TEST(FlowBenchContradictions, NameTheTravelOfAPositionOfTheWrongSignAndACurrentThatIsMissing) {
