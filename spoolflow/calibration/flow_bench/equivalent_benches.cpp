@@ -286,7 +286,7 @@ EquivalentBenches equivalent_benches(const FlowBenchRecordings& recordings, cons
 }
 
 std::string doubtful_scale(double force_over_jet) {
-  constexpr double most = 1.6;  // valves of the rig and of other simulators have 0.8 to 1.1
+  constexpr double most = 1.6;  // valves of the rig and of other simulators have 0.8 to 1.11
   if (std::isnan(force_over_jet) || (force_over_jet < most && force_over_jet > 1 / most)) return {};
   return fmt::format(
       "the coil's coenergy makes the flow force {:.2g} times that of a jet at 69 degrees, {:.2g} to {:.2g} is usual: "
