@@ -12,7 +12,7 @@
 namespace spoolflow::calibration {
 namespace {
 
-/// Innovations of a sensor that has just begun show its first guess.
+/// Break-aways of a sensor that has just begun show its first guess.
 constexpr double settling_s = 10;
 /// Before the end of an interval its piston may stand already, and oil beat between valve and cylinder [s].
 constexpr double before_end_s = 0.05;
@@ -46,21 +46,6 @@ class RunView {
   std::vector<double> volume_m3_;
   std::vector<std::size_t> order_;  ///< of intervals, by their begin
   std::size_t first_ = 0;           ///< that is not over
-};
-
-/// Innovations of the sensor's samples, squared and over what they usually are, taken back out of its average.
-class Innovations {
- public:
-  /// Of the sample that came `step_s` after the last, > 0; nothing where the spool does not slide.
-  std::optional<double> next(double average, double step_s) {
-    const double before = std::exchange(average_, average);
-    if (average == before) return {};
-    const double share = std::min(step_s / sensor::innovation_averaging_s, 1.0);
-    return std::max(0.0, before + (average - before) / share) / sensor::usual_innovation_squared;
-  }
-
- private:
-  double average_ = sensor::usual_innovation_squared;
 };
 
 /// Break-aways of the spool: at rest nothing else takes from the variance of the pressure difference.
@@ -102,10 +87,9 @@ std::optional<double> breakaway_loss(const sensor::PressureState<double>& prior,
 
 SensorView view_through(const sensor::ObserverParameters<double>& valve, double rated_flow_m3_per_s,
                         const std::vector<WatchedRun>& runs) {
-  SensorView out{{}, 0, 0};
+  SensorView out{{}, 0};
   for (const WatchedRun& run : runs) {
     RunView sums(run);
-    Innovations innovations;
     BreakAways breakaways;
     estimation::RunningSensor sensor(&valve, rated_flow_m3_per_s);
     const estimation::Columns columns = operating_columns(*run.recording);
@@ -117,11 +101,9 @@ SensorView view_through(const sensor::ObserverParameters<double>& valve, double 
       sums.add(before_s, now_s, answer.flow_m3_per_s);
       before_s = now_s;
       const sensor::ObserverState<double>& state = sensor.state().observer;
-      const auto squared = innovations.next(state.pressure.innovation_squared, step_s);
       const bool rests = sensor::has(answer.status, sensor::Status::spool_at_rest);
       const auto broke_away = breakaways.next_loss(valve, state, rests, step_s);
       if (now_s - begin_s < settling_s || !sums.oil_passes(now_s)) return;
-      if (squared) out.sliding_loss_s += step_s * interval_loss(std::sqrt(*squared));
       if (broke_away) out.breakaway_loss += *broke_away;
     });
     out.volume_m3.insert(out.volume_m3.end(), sums.volume_m3().begin(), sums.volume_m3().end());

@@ -17,7 +17,6 @@ struct WatchedRun {
 
 struct SensorView {
   std::vector<double> volume_m3;  ///< the sensor's, of each interval, run after run
-  double sliding_loss_s;          ///< interval_loss() of the innovations, while the spool slides and oil passes
   double breakaway_loss;          ///< of all break-aways while oil passes
 };
 

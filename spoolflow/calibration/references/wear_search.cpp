@@ -114,7 +114,7 @@ WearView seen_with(const MachineEvidence& evidence, const model::WearState& wear
   if (used.empty()) leave_out_apart(out.ratios);
   for (std::size_t k = 0; k < used.size(); ++k) out.ratios[k].used = out.ratios[k].used && used[k];
   for (std::size_t r = 0; r < evidence.references.size(); ++r) out.loss += level_of(out.ratios, r).loss;
-  out.loss += view.sliding_loss_s / innovation_memory_s + view.breakaway_loss;
+  out.loss += breakaway_weight * view.breakaway_loss;
   return out;
 }
 

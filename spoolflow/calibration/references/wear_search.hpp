@@ -20,8 +20,8 @@ inline constexpr double edge_wear = Priors::edge_wear, position_zero_wear_m = Pr
                         closed_uncertainty_m = Priors::closed_uncertainty_m, most_left_out = Priors::most_left_out;
 /// One standard deviation of what wear changes of friction between two looks at a valve.
 inline constexpr double friction_wear = 0.25;
-/// Innovations so far apart count as independent.
-inline constexpr double innovation_memory_s = 0.1;
+/// What one break-away counts: those of a run err alike, by what the model makes of ageing and of the edges.
+inline constexpr double breakaway_weight = 0.2;
 /// In natural logarithms, prior widths counted: a change is taken where it is three times as likely as none, a leak or
 /// narrower edges contradict where they are five times as likely.
 inline constexpr double change_evidence = 1.1, contradiction_evidence = Priors::contradiction_evidence;
@@ -90,9 +90,10 @@ struct EdgeChange : Change {
 /// the references say that less passes than forces do: then it is never taken from edges that have not widened.
 [[nodiscard]] EdgeChange edge_change(const MachineEvidence& evidence, const WearView& from);
 
-/// What one direction shows of friction in operation, for each friction tried: logarithms of the likelihoods of the
-/// sensor's innovations and of how far the references' volumes scatter beside the sensor's, with edges as wide as the
-/// oil then asks for, and of what those volumes have in common.
+/// What one direction shows of friction in operation, for each friction tried: logarithms of the likelihoods of its
+/// break-aways and of how far the references' volumes scatter beside the sensor's, with edges as wide as the oil then
+/// asks for, and of what those volumes have in common. While the spool slides the sensor's own friction follows, so
+/// that its innovations tell little.
 struct SeenFriction {
   PerFriction with_wider_edges;  ///< edges may have widened by what is usual
   PerFriction with_these_edges;
