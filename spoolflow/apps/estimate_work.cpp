@@ -117,6 +117,7 @@ validation::EstimateSummary estimate_recording(const EstimateTask& task, const s
           if (read == nullptr) return false;
           block.estimates.resize(read->samples.rows);
           estimation::run(sensor, estimation::sensor_columns(read->samples), block.estimates);
+          if (watch) watch->take(read->samples, block.estimates);  // here, as writing takes longest meanwhile
           std::swap(block.samples, read->samples);
           block.notes = read->notes;
           block.share = read->share;
@@ -128,7 +129,6 @@ validation::EstimateSummary estimate_recording(const EstimateTask& task, const s
       put_estimates(rows, block->samples.column(recording::Channel::time), block->estimates);
       writer->write(rows);
       summary.add(block->estimates);
-      if (watch) watch->take(block->samples, block->estimates);
       if (runs_on) writer->hand_over();  // whoever reads waits for these rows
       summary.notes = block->notes;
       progress.update(block->share, block->notes.rows);

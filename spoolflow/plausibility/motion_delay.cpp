@@ -44,11 +44,11 @@ Signal signal(std::span<const double> values) {
 /// Where the changes of position [m] in `reach`, which begins `most_shift_blocks` before the piece, follow those of the
 /// current [A] best, in seconds; nothing where they do not, or as well within a wide range of shifts.
 std::optional<double> clear_shift_s(std::span<const double> current, std::span<const double> reach) {
-  std::vector<double> power, correlation;
+  std::vector<double> power, correlation, squares{0};  // the last: sums of those before
+  for (const double each_m : reach) squares.push_back(squares.back() + each_m * each_m);
   for (std::size_t k = 0; k <= 2 * most_shift_blocks; ++k) {
-    const Signal position = signal(reach.subspan(k, current.size()));
-    power.push_back(position.squaredNorm());
-    correlation.push_back(signal(current).dot(position));
+    power.push_back(squares[k + current.size()] - squares[k]);
+    correlation.push_back(signal(current).dot(signal(reach.subspan(k, current.size()))));
   }
   const double current_power = signal(current).squaredNorm(), least_power = least_power_share * std::ranges::max(power);
   if (!(current_power > 0) || !(least_power > 0)) return std::nullopt;
