@@ -310,12 +310,12 @@ model::Model calibrate(const recording::Campaign& campaign, const std::string& t
   limit_currents(out);
   apply(campaign.environment.value_or(recording::Environment{}), out);
   out.provenance = std::move(provenance);
-  for (const std::string& each : recordings.directions())
-    std::ranges::move(known_quantities(recordings.of(each), model::of_direction(out, each)),
-                      std::back_inserter(out.provenance.quantities));
   for (const std::string& each : recordings.directions()) {
-    const EquivalentBenches* flow_bench = recordings.of(each).flow_bench;
-    std::string scale = flow_bench == nullptr ? std::string() : doubtful_scale(flow_bench->force_over_jet);
+    const CampaignRecordings of = recordings.of(each);
+    std::ranges::move(known_quantities(of, model::of_direction(out, each)),
+                      std::back_inserter(out.provenance.quantities));
+    if (of.flow_bench == nullptr) continue;
+    std::string scale = doubtful_scale(force_over_jet(*of.flow_bench));
     if (!scale.empty()) out.provenance.doubts.push_back(std::move(scale));
   }
   const Recordings runs = whole ? recordings.through_centre() : recordings.of(direction).operation;

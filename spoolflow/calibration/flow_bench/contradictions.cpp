@@ -27,6 +27,20 @@ double median_where(const Recording& recording, const Counts& counts, const Valu
   return out.size() < least_samples ? std::nan("") : numerics::median(std::move(out));
 }
 
+/// The same of samples whose pressure difference lies between two shares of the highest one that counts.
+template <class Counts, class Value>
+double median_at(const Recording& recording, const std::vector<double>& pressure_Pa, double from_share, double to_share,
+                 const Counts& counts, const Value& value) {
+  double highest_Pa = 0;
+  for (std::size_t k = 0; k < recording.size(); ++k) {
+    if (counts(k) && std::isfinite(pressure_Pa[k])) highest_Pa = std::max(highest_Pa, pressure_Pa[k]);
+  }
+  const auto between = [&](std::size_t k) {
+    return counts(k) && pressure_Pa[k] > from_share * highest_Pa && pressure_Pa[k] < to_share * highest_Pa;
+  };
+  return median_where(recording, between, value);
+}
+
 /// "-2.40 to 0.01 mm"
 std::string span_mm(std::span<const double> position_m) {
   double lowest_m = INFINITY, highest_m = -INFINITY;
@@ -100,17 +114,9 @@ void judge_flow(std::vector<std::string>& to, const Recording& recording, const 
     return;
   }
   // Over a sharp edge the flow goes with the root of the pressure difference, whatever that is.
-  double highest_Pa = 0;
-  for (std::size_t k = 0; k < recording.size(); ++k) {
-    if (open(k) && std::isfinite(pressure_Pa[k])) highest_Pa = std::max(highest_Pa, pressure_Pa[k]);
-  }
   const auto conductance = [&](double from_share, double to_share) {
-    return median_where(
-        recording,
-        [&](std::size_t k) {
-          return open(k) && pressure_Pa[k] > from_share * highest_Pa && pressure_Pa[k] < to_share * highest_Pa;
-        },
-        [&](std::size_t k) { return flow_m3_per_s[k] / std::sqrt(pressure_Pa[k]) / position_m[k]; });
+    return median_at(recording, pressure_Pa, from_share, to_share, open,
+                     [&](std::size_t k) { return flow_m3_per_s[k] / std::sqrt(pressure_Pa[k]) / position_m[k]; });
   };
   constexpr double most_apart = 1.35;
   const double ratio = conductance(0.8, 2) / conductance(0.01, 0.7);
@@ -129,16 +135,10 @@ void judge_meter_zero(std::vector<std::string>& to, const Recording& recording, 
   const auto position_m = recording[Channel::position];
   const auto flow_m3_per_s = recording[Channel::flow_reference];
   const std::vector<double> pressure_Pa = pressure_difference_Pa(recording);
-  double highest_Pa = 0;
-  for (const double each_Pa : pressure_Pa) highest_Pa = std::fmax(highest_Pa, each_Pa);
+  const auto rests = [&](std::size_t k) { return std::abs(position_m[k]) < closed_share * valve.stroke_m; };
   const auto closed = [&](double from_share, double to_share) {
-    return median_where(
-        recording,
-        [&](std::size_t k) {
-          return std::abs(position_m[k]) < closed_share * valve.stroke_m && pressure_Pa[k] > from_share * highest_Pa &&
-                 pressure_Pa[k] < to_share * highest_Pa;
-        },
-        [&](std::size_t k) { return flow_m3_per_s[k]; });
+    return median_at(recording, pressure_Pa, from_share, to_share, rests,
+                     [&](std::size_t k) { return flow_m3_per_s[k]; });
   };
   const double low = closed(0.01, 0.3), high = closed(0.7, 2), ratio = high / low;
   if (!(std::abs(low) > least_zero_share * valve.rated_flow_m3_per_s) ||

@@ -187,7 +187,8 @@ double scale_uncertainty(const EquivalentBenches& benches, const FlowBenchFit& f
     const Eigen::Index middle = fit.layout.map_at(fit.layout.currents.count / 2, fit.layout.places.count / 2);
     return 2 * std::sqrt(std::max(0.0, fit.forces.covariance(middle, middle)));
   }
-  return std::isnan(benches.force_over_jet) ? coenergy_scale_95 : std::abs(benches.force_over_jet - 1) + jet_force_95;
+  const double share = force_over_jet(benches);
+  return std::isnan(share) ? coenergy_scale_95 : std::abs(share - 1) + jet_force_95;
 }
 
 double largest_voltage_V(const FlowBenchRecordings& recordings) {
@@ -255,8 +256,7 @@ EquivalentBenches equivalent_benches(const FlowBenchRecordings& recordings, cons
                         measured.actuator.has_value(),
                         measured.spring.has_value(),
                         !measured.axial.empty(),
-                        0,
-                        std::nan("")};
+                        0};
   std::vector<ConductanceFit> flows;
   for (const Recording* metering : recordings.metering) {
     const ConductanceFit& flow = flows.emplace_back(fit_conductance(*metering, stroke_m));
@@ -279,21 +279,23 @@ EquivalentBenches equivalent_benches(const FlowBenchRecordings& recordings, cons
       out.axial_force_maps.push_back(
           axial_force_of(fit, conductance_of(map), "axial force, from force rig and flow bench", stroke_m));
   }
-  if (!out.known.empty() && !measured.spring && measured.axial.empty())
-    out.force_over_jet = out.known.back().parameters.back().value;
   out.force_scale_95 = scale_uncertainty(out, fit, measured);
   return out;
 }
 
-std::string doubtful_scale(double force_over_jet) {
+double force_over_jet(const EquivalentBenches& benches) {
+  if (benches.spring_was_measured || benches.axial_force_was_measured || benches.known.empty()) return std::nan("");
+  return benches.known.back().parameters.back().value;
+}
+
+std::string doubtful_scale(double share) {
   constexpr double most = 1.6;  // valves of the rig and of other simulators have 0.8 to 1.11
-  if (std::isnan(force_over_jet) || (force_over_jet < most && force_over_jet > 1 / most)) return {};
+  if (std::isnan(share) || (share < most && share > 1 / most)) return {};
   return fmt::format(
       "the coil's coenergy makes the flow force {:.2g} times that of a jet at 69 degrees, {:.2g} to {:.2g} is usual: "
-      "the "
-      "scale of the voltage, of the current or of the flow meter is wrong, or the spool is compensated; a spring or "
-      "axial_force_map of a force rig would tell",
-      force_over_jet, 1 / most, most);
+      "the scale of the voltage, of the current or of the flow meter is wrong, or the spool is compensated; a spring "
+      "or axial_force_map of a force rig would tell",
+      share, 1 / most, most);
 }
 
 }  // namespace spoolflow::calibration

@@ -25,15 +25,17 @@ struct EquivalentBenches {
   std::vector<model::Fit> known;  ///< what the fit knows of its unknowns
   bool actuator_was_measured, spring_was_measured, axial_force_was_measured;  ///< by force rigs, and these hold it
   double force_scale_95;  ///< by what share all forces may be wrong in proportion, half width
-  double force_over_jet;  ///< flow force over that of a jet at 69 degrees; NaN where a force rig gives the scale
 };
 
 /// The share of a jet's force that its angle leaves open: von Mises' 69 degrees within 3.
 inline constexpr double jet_force_95 = 0.14;
 
-/// A sentence where the coil's coenergy gives a flow force that is not 0.63 to 1.6 times that of the jet; else, and of
+/// Flow force over that of a jet at 69 degrees; NaN where a force rig gives the scale, or nothing was metered.
+[[nodiscard]] double force_over_jet(const EquivalentBenches& benches);
+
+/// A sentence where the coil's coenergy gives a flow force that is not 0.62 to 1.6 times that of the jet; else, and of
 /// NaN, empty.
-[[nodiscard]] std::string doubtful_scale(double force_over_jet);
+[[nodiscard]] std::string doubtful_scale(double share);
 
 /// Forces and flow are as uncertain as the flow bench, in place of force benches, leaves them.
 void widen(std::vector<model::Residual>& residuals, const EquivalentBenches& flow_bench);
