@@ -71,7 +71,7 @@ endfunction()
 
 # spoolflow_light(TARGET): its time goes into texts, files and sockets; more than -O1 would but take longer to build.
 function(spoolflow_light target)
-  if(NOT SPOOLFLOW_SANITIZE)
+  if(NOT SPOOLFLOW_SANITIZE OR SPOOLFLOW_SANITIZE_ALL)
     target_compile_options(${target} PRIVATE -O1)
   endif()
 endfunction()
@@ -87,6 +87,8 @@ endfunction()
 function(spoolflow_fast target)
   if(NOT SPOOLFLOW_SANITIZE AND NOT CMAKE_BUILD_TYPE STREQUAL Debug)
     target_compile_options(${target} PRIVATE -O3)
+  elseif(SPOOLFLOW_SANITIZE_ALL)
+    target_compile_options(${target} PRIVATE -O1)  # what computes for minutes at -O0 is built for its tests in less
   endif()
 endfunction()
 
