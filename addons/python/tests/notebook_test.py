@@ -14,7 +14,7 @@ NAME = "from_recordings_to_a_sensor.ipynb"
 
 def without_numbers(text):
     """Other processors may differ in a last digit."""
-    return re.sub(r"-?[0-9][0-9.]*(e[-+]?[0-9]+)?", "#", re.sub(" +", " ", text))
+    return re.sub(r"[-+]?[0-9][0-9.]*(e[-+]?[0-9]+)?", "#", re.sub(" +", " ", text))
 
 
 class Notebook(examples.InAFolder):
