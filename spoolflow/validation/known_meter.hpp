@@ -9,7 +9,7 @@ namespace spoolflow::validation {
 /// Where a run's reference meter is known from.
 enum class MeterSource {
   given,       ///< by the options
-  this_run,    ///< as it shows beside the leading estimator
+  this_run,    ///< as it shows beside the leading estimator, or edges and pressure difference
   other_runs,  ///< the median of what they show: the run itself shows none
   none,        ///< no run shows it; it counts as 0
 };

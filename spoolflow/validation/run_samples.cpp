@@ -1,5 +1,6 @@
 #include "spoolflow/validation/run_samples.hpp"
 
+#include "spoolflow/estimation/edge_flow.hpp"
 #include "spoolflow/estimation/recordings/sensor_channels.hpp"
 #include "spoolflow/monitor/contradiction.hpp"
 #include "spoolflow/numerics/meter_lag.hpp"
@@ -28,6 +29,10 @@ void append(Answers& to, const std::vector<sensor::Estimate<double>>& estimates)
 template <class Number>
 void append(std::vector<Number>& to, const recording::SampleBlock& block, Channel channel) {
   for (const double value : block.column(channel)) to.push_back(static_cast<Number>(value));
+}
+
+std::vector<double> in_double(const std::vector<float>& values) {
+  return {values.begin(), values.end()};
 }
 
 /// What a coil has, of the only or the active one; of a whole valve coil b's counts > 0 and coil a's < 0.
@@ -97,12 +102,18 @@ RunSamples estimate_run(const model::Model& model, const std::filesystem::path& 
   return run;
 }
 
-KnownMeter meter_of(const RunSamples& run) {
+KnownMeter meter_of(const model::Model& model, const RunSamples& run) {
   if (run.reference_m3_per_s.empty()) return {};
-  const Answers& answers = run.answers.back();
-  const std::vector<double> flow(answers.flow_m3_per_s.begin(), answers.flow_m3_per_s.end());
-  const std::vector<double> reference(run.reference_m3_per_s.begin(), run.reference_m3_per_s.end());
-  const std::optional<numerics::MeterLag> found = numerics::find_meter_lag(run.time_s, flow, reference);
+  const std::vector<double> reference = in_double(run.reference_m3_per_s);
+  std::vector<double> flow = in_double(run.answers.back().flow_m3_per_s);
+  std::optional<numerics::MeterLag> found = numerics::find_meter_lag(run.time_s, flow, reference);
+  if (!found && model.has_observer() && !run.pressure_difference_Pa.empty()) {
+    const estimation::PassedEdges edges{&model.observer->parameters,
+                                        model.p_to_a ? &model.p_to_a->observer->parameters : nullptr};
+    flow = estimation::edge_flow(edges, run.position_m, in_double(run.pressure_difference_Pa),
+                                 in_double(run.oil_temperature_K));
+    found = numerics::find_lag_of_known_flow(run.time_s, flow, reference);
+  }
   if (!found) return {};
   return {*found, numerics::meter_lag_uncertainty(run.time_s, flow, reference, *found), MeterSource::this_run};
 }

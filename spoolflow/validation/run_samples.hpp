@@ -41,8 +41,9 @@ struct RunSamples {
                                       const std::vector<estimation::Estimator>& estimators,
                                       const std::function<void(double)>& progress);
 
-/// The reference meter, as the run shows it beside the leading estimator; of source `none` where it does not.
-[[nodiscard]] KnownMeter meter_of(const RunSamples& run);
+/// The reference meter, as the run shows it beside the leading estimator, else beside what the model's edges pass at
+/// the measured pressure difference; of source `none` where neither shows it.
+[[nodiscard]] KnownMeter meter_of(const model::Model& model, const RunSamples& run);
 
 /// Shows flow and band as the reference meter would.
 void apply_lag(std::span<const double> time_s, Answers& answers, const numerics::MeterLag& meter);

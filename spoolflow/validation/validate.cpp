@@ -164,7 +164,7 @@ Validation validate(const model::Model& model, const std::vector<std::filesystem
     RunSamples samples = estimate_run(model, recordings[k], options.channels, options.estimators,
                                       [&](double share) { progress((static_cast<double>(k) + share) / total); });
     KnownMeter meter{{.lag_s = options.reference_lag_s.value_or(0)}, {}, MeterSource::given};
-    if (!options.reference_lag_s) meter = meter_of(samples);
+    if (!options.reference_lag_s) meter = meter_of(model, samples);
     if (meter.source == MeterSource::none && !samples.reference_m3_per_s.empty()) {
       without_meter.emplace_back(k, std::move(samples));
       continue;

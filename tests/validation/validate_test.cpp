@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/sensor/closed_form_valve.hpp"
 #include "tests/sensor/linear_valve.hpp"
 
 namespace spoolflow::validation {
@@ -239,6 +240,25 @@ TEST_F(Validate, ARunThatDoesNotShowItsMetersLagTakesThatOfTheOtherRuns) {
     EXPECT_LT(rms(beside), 0.8 * rms(alone));
     EXPECT_GT(rms(beside), rms(both.runs[1 - k]));
   }
+}
+
+TEST_F(Validate, FindsTheMetersLagBesideEdgeAndPressureDifferenceWhereTheSensorSeesNoChange) {
+  model.observer = model::Observer{sensor::closed_form_observer<double>(sensor::closed_form), {}, {}, {}, {}};
+  const double lag_s = 0.05;
+  double meter = sensor::closed_form.flow_m3_per_s(1e-3, 20e5, 313);
+  std::string head = "time_s,current_A,position_mm,oil_temperature_C,flow_reference_L_min", plain, pressed;
+  for (int k = 0; k < 20000; ++k) {
+    const double pressure_Pa = k / 1000 % 2 == 0 ? 20e5 : 50e5;  // under a spool and a current that stand
+    meter += -std::expm1(-1e-3 / lag_s) * (sensor::closed_form.flow_m3_per_s(1e-3, pressure_Pa, 313) - meter);
+    const std::string row = number(k * 1e-3) + ",1.5,1,39.85," + number(60e3 * meter);
+    plain += row + "\n";
+    pressed += row + "," + number(1e-5 * pressure_Pa) + "\n";
+  }
+  EXPECT_EQ(run({write("plain.csv", head + "\n" + plain)}).runs.front().reference_meter.source, MeterSource::none);
+  const RunResult result = run({write("pressed.csv", head + ",pressure_difference_bar\n" + pressed)}).runs.front();
+  EXPECT_EQ(result.reference_meter.source, MeterSource::this_run);
+  EXPECT_NEAR(result.reference_meter.meter.lag_s, lag_s, 0.003);
+  EXPECT_NEAR(result.reference_meter.meter.dead_time_s, 0, 0.003);
 }
 
 TEST_F(Validate, SaysThatARunWasAlreadyUsedForTheCalibration) {

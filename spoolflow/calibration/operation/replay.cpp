@@ -1,5 +1,6 @@
 #include "spoolflow/calibration/operation/replay.hpp"
 
+#include "spoolflow/estimation/edge_flow.hpp"
 #include "spoolflow/recording/coil_channels.hpp"
 
 namespace spoolflow::calibration {
@@ -46,50 +47,27 @@ void share_operation(const sensor::ObserverParameters<double>& from, sensor::Obs
 
 namespace {
 
-/// Flow and reference at the same times, from complete samples.
-struct BesideMeter {
-  std::vector<double> time_s, flow_m3_per_s, reference_m3_per_s;
-
-  void add(double at_s, double flow, double reference) {
-    time_s.push_back(at_s);
-    flow_m3_per_s.push_back(flow);
-    reference_m3_per_s.push_back(reference);
-  }
-};
-
-/// What the edge passes at the measured pressure difference; empty where that was not recorded. No force errs in it.
-BesideMeter flow_of_edge(const sensor::ObserverParameters<double>& parameters, const OperatingRun& run) {
-  const recording::Recording& recording = *run.recording;
-  const std::span<const double> pressure_Pa = recording.column(Channel::pressure_difference);
-  const std::span<const double> oil_K = recording.column(Channel::oil_temperature);
-  const std::span<const double> time_s = recording[Channel::time], position_m = recording[Channel::position];
-  const std::span<const double> reference_m3_per_s = recording[Channel::flow_reference];
-  double temperature_K = parameters.edge.temperature_K.at(sensor::edge_temperatures / 2);
-  BesideMeter out;
-  for (std::size_t k = 0; k < pressure_Pa.size(); ++k) {
-    if (!oil_K.empty() && std::isfinite(oil_K[k])) temperature_K = oil_K[k];
-    const double opening_m = sensor::drift_free_m(parameters.position_sensor, position_m[k], temperature_K);
-    if (!std::isfinite(opening_m + pressure_Pa[k])) continue;
-    const bool other = run.of == RunOf::other || (run.of == RunOf::both && opening_m < 0);
-    const sensor::MeteringEdge<double>& edge = other ? run.other->edge : parameters.edge;
-    const double sign = run.of == RunOf::both && other ? -1 : 1, drop_Pa = std::abs(pressure_Pa[k]);
-    out.add(time_s[k], sign * edge.at(temperature_K, drop_Pa, sign * opening_m).conductance * std::sqrt(drop_Pa),
-            reference_m3_per_s[k]);
-  }
-  return out;
-}
-
+/// Beside what the edge passes at the measured pressure difference; where that does not show it, beside the answers.
 numerics::MeterLag meter_of(const sensor::ObserverParameters<double>& parameters, OperatingRun run) {
-  const BesideMeter known = flow_of_edge(parameters, run);
-  if (const auto found = numerics::find_lag_of_known_flow(known.time_s, known.flow_m3_per_s, known.reference_m3_per_s))
-    return *found;
+  const recording::Recording& recording = *run.recording;
+  if (const std::span<const double> pressure_Pa = recording.column(Channel::pressure_difference);
+      !pressure_Pa.empty()) {
+    const estimation::PassedEdges edges{run.of == RunOf::other ? run.other : &parameters,
+                                        run.of == RunOf::both ? run.other : nullptr};
+    const std::vector<double> flow = estimation::edge_flow(edges, recording[Channel::position], pressure_Pa,
+                                                           recording.column(Channel::oil_temperature));
+    if (const auto found =
+            numerics::find_lag_of_known_flow(recording[Channel::time], flow, recording[Channel::flow_reference]))
+      return *found;
+  }
   run.meter = {};
-  BesideMeter answered;
+  std::vector<double> time_s, flow_m3_per_s, reference_m3_per_s;
   replay(parameters, {run}, [&](const ReplayedSample& sample) {
-    answered.add(sample.time_s, sample.shown.flow, sample.reference_m3_per_s);
+    time_s.push_back(sample.time_s);
+    flow_m3_per_s.push_back(sample.shown.flow);
+    reference_m3_per_s.push_back(sample.reference_m3_per_s);
   });
-  return numerics::find_meter_lag(answered.time_s, answered.flow_m3_per_s, answered.reference_m3_per_s)
-      .value_or(numerics::MeterLag{});
+  return numerics::find_meter_lag(time_s, flow_m3_per_s, reference_m3_per_s).value_or(numerics::MeterLag{});
 }
 
 }  // namespace
