@@ -3,13 +3,13 @@
 # file apart and of live and fleet; the longest walks, FMUs from their sources, RISC-V; `live` killed at fifty instants, its
 # parsers fuzzed for SECONDS each (an hour where none are given), fleets whose parts are killed, 500 valves at 1 kHz for as long,
 # the page of 200, the playground's build, and UNITS of a type (200 where none are given). Fleets are killed at SEEDS instants (20),
-# large ones for ten minutes or SECONDS, whichever is less, but a minute at the least.
+# large ones for ten minutes or SECONDS, whichever is less, but 100 s at the least; the page for two minutes at the least.
 # Prints figures and, at the end, its time; the exit status covers clang-tidy, sanitizers, kills, fleets, fuzzing, the page, the
 # playground and the type's bands.
 set -eu
 cd "$(dirname "$(readlink -f "$0")")/.."
 seconds=${1:-3600} units=${2:-200} seeds=${3:-20}
-large=$((seconds > 600 ? 600 : seconds < 60 ? 60 : seconds))
+large=$((seconds > 600 ? 600 : seconds < 100 ? 100 : seconds)) # an indicator comes once a minute
 status=0
 begin=$(date +%s)
 part() { echo "== $((($(date +%s) - begin) / 60)) min: $1"; }
@@ -37,7 +37,7 @@ part "500 valves"
 build/release/bench/live_load build/release/bin/spoolflow examples/live/size_6.json 500 "$seconds"
 part "the page of 200 valves"
 tests/web/live_for_long.sh build/release/tests/web/page build/release/bench/live_load build/release/bin/spoolflow examples/live/size_6.json 200 \
-  "$seconds" || status=1
+  "$((seconds < 120 ? 120 : seconds))" || status=1
 part "the playground"
 addons/playground/wasm/build.sh build/playground_page || status=1
 part "$units units of a type"
