@@ -9,6 +9,7 @@
 
 #include "spoolflow/calibration/operation/replay.hpp"
 #include "spoolflow/calibration/type/unit_parameters.hpp"
+#include "spoolflow/estimation/edge_flow.hpp"
 #include "spoolflow/numerics/median.hpp"
 #include "spoolflow/sensor/observer.hpp"
 
@@ -85,22 +86,17 @@ void UnitEvidence::prepare(const UnitRun& of) {
     }
     if (doing.broke_after_s > 0) add_breakaway(run, k, doing.broke_after_s, state.position.travel_m);
   });
-  if (run.has_flow && run.has_pressure) run.meter = meter_of(run, recording);
+  if (run.has_flow && run.has_pressure) run.meter = meter_of(recording);
   find_rows(run);
   runs_.push_back(std::move(run));
 }
 
 /// The lag that the meter shows beside the type's flow at the measured pressure difference.
-numerics::MeterLag UnitEvidence::meter_of(const Run& run, const recording::Recording& recording) const {
-  std::vector<double> flow_m3_per_s, reference_m3_per_s;
-  for (const Sample& sample : run.samples) {
-    const double pressure_Pa = sample.pressure_Pa < 0 ? 0 : sample.pressure_Pa;  // NaN stays one
-    flow_m3_per_s.push_back(
-        type_.observer->parameters.edge.at(sample.temperature_K, pressure_Pa, sample.position_m).conductance *
-        std::sqrt(pressure_Pa));
-    reference_m3_per_s.push_back(sample.flow_m3_per_s);
-  }
-  return numerics::find_lag_of_known_flow(recording[Channel::time], flow_m3_per_s, reference_m3_per_s)
+numerics::MeterLag UnitEvidence::meter_of(const recording::Recording& recording) const {
+  const std::vector<double> flow =
+      estimation::edge_flow({&type_.observer->parameters}, recording[Channel::position],
+                            recording[Channel::pressure_difference], recording.column(Channel::oil_temperature));
+  return numerics::find_lag_of_known_flow(recording[Channel::time], flow, recording[Channel::flow_reference])
       .value_or(numerics::MeterLag{});
 }
 

@@ -101,7 +101,7 @@ class UnitEvidence {
     numerics::MeterLag meter;
   };
   void prepare(const UnitRun& run);
-  [[nodiscard]] numerics::MeterLag meter_of(const Run& run, const recording::Recording& recording) const;
+  [[nodiscard]] numerics::MeterLag meter_of(const recording::Recording& recording) const;
   void add_breakaway(Run& run, std::size_t sample, double rested_s, double travel_m);
   void find_rows(Run& run);
   void add_closed_reading();
