@@ -114,6 +114,12 @@ inline constexpr const char* each_edge_alone = "each edge by itself: both are ta
 /// The pressure difference up to which a model answers, over the highest that was calibrated, where nobody declares it:
 /// flow force in proportion to the pressure difference holds so far (paper (2)).
 inline constexpr double usual_highest_pressure_ratio = 1.2;
+/// Whether an environment declares a higher pressure difference than that.
+[[nodiscard]] inline bool declares_pressure(const sensor::ObserverParameters<double>& valve) {
+  constexpr double rounding = 1.01;
+  return valve.highest_pressure_difference_Pa() >
+         rounding * usual_highest_pressure_ratio * valve.edge.highest_pressure_difference_Pa();
+}
 
 /// The full sensor; a model may lack it.
 struct Observer {

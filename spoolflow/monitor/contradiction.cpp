@@ -57,12 +57,19 @@ std::string contradiction(Monitor& watch) {
 }
 
 void add_contradiction(Monitor& watch, const std::string& file, std::vector<std::string>& doubts) {
-  const std::string found = contradiction(watch);
-  if (found.empty()) return;
-  doubts.push_back(
-      fmt::format("{}: the forces contradict the model, so that flow and band are wrong: {}; mend the channel, or "
-                  "calibrate this unit (`spoolflow monitor` shows more)",
-                  std::filesystem::path(file).filename().string(), found));
+  const std::string found = contradiction(watch), name = std::filesystem::path(file).filename().string();
+  if (!found.empty()) {
+    doubts.push_back(
+        fmt::format("{}: the forces contradict the model, so that flow and band are wrong: {}; mend the channel, or "
+                    "calibrate this unit (`spoolflow monitor` shows more)",
+                    name, found));
+  } else if (const double share = watch.beyond_pressure_share(); share > most_beyond_share) {
+    doubts.push_back(fmt::format(
+        "{}: for {:.0f} % of the time the forces ask for a higher pressure difference than is calibrated: where the "
+        "machine has it, declare [environment] highest_pressure_bar, and the band holds it; else current reads too "
+        "high, position is off, or it is another unit, and flow and band are wrong",
+        name, 100 * share));
+  }
 }
 
 }  // namespace spoolflow::monitor

@@ -17,7 +17,11 @@ inline constexpr double contradiction_odds = 1000;
 /// to the closed end show nothing.
 [[nodiscard]] std::string contradiction(Monitor& watch);
 
-/// Adds it as a sentence about the answers to the recording `file`.
+/// Sound recordings within the calibrated range ask for a higher pressure difference in 3 % of the time at most.
+inline constexpr double most_beyond_share = 0.25;
+
+/// Adds it as a sentence about the answers to the recording `file`; where there is none, whether the forces mostly ask
+/// for a higher pressure difference than is calibrated.
 void add_contradiction(Monitor& watch, const std::string& file, std::vector<std::string>& doubts);
 
 }  // namespace spoolflow::monitor

@@ -109,6 +109,12 @@ void Monitor::take(const estimation::TimedSample& sample, const sensor::Estimate
   if (model_->whole()) take_centre(sample, time_step_s);
 }
 
+double Monitor::beyond_pressure_share() const {
+  if (model::declares_pressure(*reference_[0].valve)) return 0;
+  return std::min(mean_share(state_.status, sensor::Status::outside_flow_force_map, state_.usage.watched_s),
+                  highest_pressure_share(state_.usage));
+}
+
 /// Of a recording with one current, that of the active coil, the other is silent.
 void Monitor::take_centre(const estimation::TimedSample& sample, double time_step_s) {
   const auto silent = [&](double current_A, std::size_t side) {

@@ -2,6 +2,8 @@
 /// For which share of the last minutes each status was set, and the sign of NE 107 that this makes.
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <type_traits>
 
 #include "spoolflow/monitor/condition.hpp"
@@ -49,6 +51,16 @@ inline void follow_status(StatusShares& state, sensor::Status status, double tim
     if (share < forgotten_share) share = 0;
     state.raised[k] = share > (state.raised[k] ? 0.5 : 1.0) * rule.share;
   }
+}
+
+/// Of a status in the table, over `watched_s` since nothing was known: the share of the time in which it was set, what
+/// is longer ago than its memory counting less.
+inline double mean_share(const StatusShares& state, sensor::Status status, double watched_s) {
+  for (std::size_t k = 0; k < status_rules.size(); ++k) {
+    if (status_rules[k].status == status && watched_s > 0)
+      return state.share[k] / -std::expm1(-watched_s / status_rules[k].memory_s);
+  }
+  return 0;
 }
 
 /// The worst sign of those that are raised.

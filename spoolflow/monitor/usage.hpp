@@ -61,6 +61,16 @@ inline std::size_t load_class(double share) {
   return static_cast<std::size_t>(place);
 }
 
+/// Share of the time in the highest class of pressure difference: what is beyond the calibrated range, and just below.
+inline double highest_pressure_share(const Usage& usage) {
+  double all_s = 0, highest_s = 0;
+  for (std::size_t k = 0; k < usage.load_s.size(); ++k) {
+    all_s += usage.load_s[k];
+    if (k % load_classes == load_classes - 1) highest_s += usage.load_s[k];
+  }
+  return all_s > 0 ? highest_s / all_s : 0;
+}
+
 /// All numbers finite.
 inline void count(Usage& usage, const UsageScale& scale, const UsageStep& step) {
   if (!usage.started) {

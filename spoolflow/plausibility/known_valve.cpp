@@ -70,10 +70,8 @@ std::vector<KnownValve> known_valve(const model::Model& model) {
     if (!observer) return;
     out.back().coil.resistance_Ohm = observer->parameters.actuator.coil_resistance.resistance_Ohm;
     // What a machine has that declares nothing leaves no room for a recording error to hide in.
-    const double bound_Pa = observer->parameters.highest_pressure_difference_Pa();
-    if (bound_Pa >
-        1.01 * model::usual_highest_pressure_ratio * observer->parameters.edge.highest_pressure_difference_Pa())
-      out.back().hydraulics.bounding_pressure_Pa = bound_Pa;
+    if (model::declares_pressure(observer->parameters))
+      out.back().hydraulics.bounding_pressure_Pa = observer->parameters.highest_pressure_difference_Pa();
     out.back().position_noise_m = observer->parameters.position_sensor.noise_m;
     out.back().oil_temperature_K = observer->oil_temperature_K;
     out.back().closed_below_m = observer->parameters.closed_below_m;

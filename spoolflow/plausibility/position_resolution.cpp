@@ -11,6 +11,7 @@
 
 #include "spoolflow/numerics/median.hpp"
 #include "spoolflow/plausibility/limits.hpp"
+#include "spoolflow/plausibility/signals/fourth_difference.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::plausibility {
@@ -91,14 +92,11 @@ void PositionResolution::judge_stretch() {
     differences_.clear();
     fourth_.clear();
     for (std::size_t k = 4; k < stretch_.size(); ++k) {
-      const double* const x = &stretch_[k - 4];
-      differences_.push_back(x[0] - 4 * x[1] + 6 * x[2] - 4 * x[3] + x[4]);
+      differences_.push_back(fourth_difference(&stretch_[k - 4]));
       fourth_.push_back(std::abs(differences_.back()));
     }
-    const double noise_gain = std::sqrt(1.0 + 16 + 36 + 16 + 1);
-    constexpr double quartile_deviations = 0.318639;  // a quarter of all lie so near to a normal distribution's mean
     quartile_m_ = lower_quartile();
-    const double noise_m = quartile_m_ / (quartile_deviations * noise_gain);
+    const double noise_m = white_noise(quartile_m_);
     if (!(noise_m > striking_ratio * least_noise_m_) || !is_periodic(differences_)) {
       noise_m_.push_back(noise_m);
       least_noise_m_ = noise_m_.size() == 1 ? noise_m : std::min(least_noise_m_, noise_m);

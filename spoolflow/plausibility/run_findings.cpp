@@ -320,6 +320,7 @@ std::vector<Finding> run_findings(const std::vector<KnownValve>& valve, const Ru
   const std::optional<ErrorFinding> error = error_finding(trial);
   const std::string coarse = coarse_position(run.position_resolution(), valve.front().position_noise_m);
   if (!(error && error->of_position)) add(false, coarse);
+  add(false, noisy_current(run.steady_lines()));
   add(false, low_pass_finding(run.steady_lines(), valve.front().position_noise_m));
   const SteadyValve known{valve.front().position_noise_m,
                           {valve.front().coil.resistance_Ohm, valve.back().coil.resistance_Ohm}};

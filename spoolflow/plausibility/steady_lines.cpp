@@ -13,6 +13,7 @@
 
 #include "spoolflow/numerics/median.hpp"
 #include "spoolflow/plausibility/limits.hpp"
+#include "spoolflow/plausibility/signals/fourth_difference.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::plausibility {
@@ -46,7 +47,7 @@ struct MedianSpectrum::Parts {
   Eigen::FFT<double> transform;
   std::vector<double> points, windowed;
   std::vector<std::complex<double>> spectrum;
-  std::vector<std::vector<float>> power;  ///< of each kept piece, in each bin
+  std::vector<std::vector<float>> power;  ///< of each kept piece, in each bin, and behind them its points' noise
   std::size_t stride = 1, passed = 0;     ///< one of so many pieces is kept; those since the last
   double last_s = NAN, step_s = NAN, first_s = NAN;
   double kept_s = 0;  ///< of all pieces, and
@@ -82,6 +83,14 @@ struct MedianSpectrum::Parts {
     if (points.size() == piece) keep();
   }
 
+  double noise_of_points() {
+    windowed.clear();
+    for (std::size_t k = 4; k < piece; ++k) windowed.push_back(std::abs(fourth_difference(&points[k - 4])));
+    const auto quarter = windowed.begin() + static_cast<std::ptrdiff_t>(windowed.size() / 4);
+    std::ranges::nth_element(windowed, quarter);
+    return white_noise(*quarter);
+  }
+
   void keep() {
     kept_s += last_s - first_s;
     kept_samples += piece * samples_a_point - 1;
@@ -99,8 +108,9 @@ struct MedianSpectrum::Parts {
       for (std::size_t k = 0; k < piece; ++k)
         windowed[k] = window()[k] * (points[k] - first - (last - first) * static_cast<double>(k) / (piece - 1));
       transform.fwd(spectrum, windowed);
-      std::vector<float>& kept = power.emplace_back(bins);
+      std::vector<float>& kept = power.emplace_back(bins + 1);
       for (std::size_t k = 0; k < bins; ++k) kept[k] = static_cast<float>(std::norm(spectrum[k]));
+      kept[bins] = static_cast<float>(noise_of_points());
       if (power.size() == most_pieces) {
         for (std::size_t k = 1; 2 * k < most_pieces; ++k) power[k] = std::move(power[2 * k]);
         power.resize(most_pieces / 2);
@@ -128,9 +138,9 @@ Spectrum MedianSpectrum::median(std::size_t fewest_pieces) const {
   // Points of samples that are no whole fraction of them apart stand further or closer.
   Spectrum out{rate_Hz, rate_Hz / (static_cast<double>(parts_->samples_of_point) * piece), std::vector<double>(bins)};
   std::vector<double> one(pieces.size());
-  for (std::size_t k = 0; k < bins; ++k) {
+  for (std::size_t k = 0; k <= bins; ++k) {
     for (std::size_t each = 0; each < pieces.size(); ++each) one[each] = pieces[each][k];
-    out.power[k] = numerics::median(one);
+    (k < bins ? out.power[k] : out.point_noise) = numerics::median(one);
   }
   return out;
 }
@@ -168,6 +178,23 @@ double Spectrum::noise(double least_Hz, double most_Hz) const {
   constexpr double window_power = 0.375 * piece, median_over_mean = std::numbers::ln2;
   const double samples_a_point = sample_rate_Hz / (bin_Hz * piece);
   return std::sqrt(numerics::median({at(least_Hz), at(most_Hz)}) / (window_power * median_over_mean) * samples_a_point);
+}
+
+std::string noisy_current(const SteadyLines& run) {
+  const double largest_A = std::ranges::max(run.largest_current_A);
+  for (const MedianSpectrum& coil : run.current) {
+    const Spectrum current = coil.median();
+    const double samples_a_point = current.sample_rate_Hz * point_s,
+                 beyond_A = current.noise(beyond_Hz[0], beyond_Hz[1]), far_A = current.noise(far_Hz[0], far_Hz[1]);
+    const double noise_A = std::min(std::min(beyond_A, far_A) / std::sqrt(samples_a_point), current.point_noise);
+    if (!(noise_A > noisy_current_share * largest_A) || far_A < falling_share * beyond_A) continue;
+    return fmt::format(
+        "current comes with noise of {:.2g} mA as its mean over 2 ms, {:.1f} % of its largest value: the iron's "
+        "hysteresis is taken to follow it, so that errors grow and the band is too narrow; shield its line, or record "
+        "means over a millisecond of a faster converter",
+        1e3 * noise_A, 100 * noise_A / largest_A);
+  }
+  return {};
 }
 
 std::string low_pass_finding(const SteadyLines& run, double position_noise_m) {

@@ -107,6 +107,22 @@ TEST_F(EstimateFaults, ACurrentThatReadsFivePercentTooHighContradictsTheModel) {
   EXPECT_THAT(content("out.json"), HasSubstr("the forces contradict the model"));
 }
 
+// A duty cycle that never closes shows no force without flow: more of it may be another pressure.
+TEST_F(EstimateFaults, ForcesThatMostlyAskForMorePressureThanCalibratedAreReportedUnlessItIsDeclared) {
+  const auto said_with = [&](const std::string& scale, const std::string& options) {
+    write("map.toml", "[channels]\ncurrent = { column = \"current_A\", unit = \"A\", scale = " + scale + " }\n");
+    return run("estimate -q " SPOOLFLOW_EXAMPLE_MODEL " " SPOOLFLOW_EXAMPLES
+               "/valve_a/duty_cycle_1.h5 --channels map.toml -o /dev/null" +
+               options)
+        .message;
+  };
+  write("machine.toml", "[environment]\nhighest_pressure_bar = 160\n");
+  EXPECT_THAT(said_with("1.15", ""),
+              HasSubstr("% of the time the forces ask for a higher pressure difference than is"));
+  EXPECT_THAT(said_with("1.15", " --environment machine.toml"), Not(HasSubstr("% of the time the forces ask")));
+  EXPECT_THAT(said_with("1", ""), Not(HasSubstr("% of the time the forces ask")));
+}
+
 TEST_F(EstimateFaults, BenchesWhoseLoadCellReadsTwoNewtonTooMuchContradictTheirOperatingRun) {
   std::filesystem::copy(SPOOLFLOW_EXAMPLES "/valve_a", folder / "valve_a");
   std::string campaign = content("valve_a/campaign.toml");

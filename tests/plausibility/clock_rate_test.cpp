@@ -14,14 +14,15 @@ using recording::Channel;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Means over 10 ms of a coil at work for a minute, in which the recorder counts `seconds` for each second.
-recording::Recording recorded_by(double seconds, double voltage_scale = 1) {
+/// Means over 10 ms, or `step_s`, of a coil at work for a minute, in which the recorder counts `seconds` for each
+/// second.
+recording::Recording recorded_by(double seconds, double voltage_scale = 1, double step_s = 0.01) {
   recording::Recording out;
   const auto current_A = [](double t) { return 1 + 0.4 * std::sin(1.9 * t) + 0.2 * std::sin(5.3 * t); };
   const auto position_m = [](double t) { return 1e-3 * (1 + 0.6 * std::sin(1.9 * t - 0.4)); };
   const auto flux_at = [&](double t) { return flux_Wb(current_A(t), position_m(t)); };
-  for (int k = 0; k < 6000; ++k) {
-    const double t = 0.01 * k, d = 1e-4;
+  for (int k = 0; k * step_s < 60; ++k) {
+    const double t = step_s * k, d = 1e-4;
     out.column(Channel::time).push_back(seconds * t);
     out.column(Channel::current).push_back(current_A(t));
     out.column(Channel::position).push_back(position_m(t));
@@ -34,6 +35,8 @@ recording::Recording recorded_by(double seconds, double voltage_scale = 1) {
 TEST(ClockRate, TheInducedVoltageTellsTimeThatRunsTooFastOrSlow) {
   EXPECT_THAT(wrong_clock(recorded_by(0.5), coil), HasSubstr("time runs 1.9 times too fast: beside its resistance"));
   EXPECT_THAT(wrong_clock(recorded_by(2), coil), HasSubstr("time runs 2.0 times too slow"));
+  EXPECT_THAT(wrong_clock(recorded_by(2, 1, 0.064), coil), HasSubstr("time runs 2.0 times too slow"))
+      << "as long as the means of a run of four minutes";
 }
 
 TEST(ClockRate, ACoilInItsOwnTimeRaisesNothing) {

@@ -15,6 +15,7 @@ namespace spoolflow::plausibility {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -141,6 +142,25 @@ SteadyLines dithered_behind(double position_Hz, double current_Hz, double noise_
   out.current[0].take(time_s, current);
   out.largest_current_A[0] = 1.8;
   return out;
+}
+
+TEST(NoisyCurrent, IsNamedWithItsNoiseAtAnySamplingRate) {
+  for (const double rate_Hz : {1000.0, 3000.0}) {
+    std::mt19937 engine(11);
+    std::normal_distribution<double> noise_A(0, 0.012 * std::sqrt(rate_Hz / 500));
+    EXPECT_THAT(noisy_current(run(rate_Hz, no_line, [&](double) { return noise_A(engine); })),
+                AllOf(AnyOf(HasSubstr("noise of 11 mA as its mean over 2 ms"), HasSubstr("noise of 12 mA as its mean")),
+                      HasSubstr("0.6 % of its largest value")))
+        << rate_Hz;
+  }
+}
+
+TEST(NoisyCurrent, IsNoneOfASoundCoilUnderDitherOrWithSpikes) {
+  EXPECT_THAT(noisy_current(run(1000, no_line, no_line)), IsEmpty());
+  EXPECT_THAT(noisy_current(run(1000, no_line, [](double now_s) { return 0.2 * sine(80, now_s); })), IsEmpty());
+  std::mt19937 engine(13);
+  std::bernoulli_distribution strikes(1e-3);
+  EXPECT_THAT(noisy_current(run(1000, no_line, [&](double) { return strikes(engine) ? 1.0 : 0.0; })), IsEmpty());
 }
 
 TEST(LowPass, OfTheRecorderIsNamedInThePositionOrInTheCurrentAlone) {

@@ -16,7 +16,7 @@ namespace {
 using recording::Channel;
 using recording::Recording;
 
-constexpr double shortest_s = 0.05, longest_s = 0.12;  ///< of a mean: several time constants of eddy currents
+constexpr double shortest_s = 0.05, longest_s = 0.26;  ///< of a mean: several time constants of eddy currents
 constexpr double piece_s = 2;                          ///< within which copper keeps its temperature
 constexpr double fewest_pieces = 5;
 constexpr double least_share = 0.7, most_share = 1.6;  ///< of the induced voltage; sound runs have 0.89 to 1.34
