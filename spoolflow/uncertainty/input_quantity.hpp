@@ -51,12 +51,6 @@ struct QuantityAbout {
 };
 [[nodiscard]] const QuantityAbout& about(InputQuantity quantity);
 
-inline constexpr std::array<InputQuantity, quantity_count> all_quantities = [] {
-  std::array<InputQuantity, quantity_count> all{};
-  for (std::size_t k = 0; k < quantity_count; ++k) all[k] = static_cast<InputQuantity>(k);
-  return all;
-}();
-
 /// One number a quantity.
 template <class T>
 struct PerQuantity {

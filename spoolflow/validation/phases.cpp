@@ -27,10 +27,9 @@ std::vector<bool> near_turns(std::span<const double> time_s, const std::vector<d
   return near;
 }
 
-/// `share`: > 0 opens P to B, < 0 P to A: on either side the spool opens away from the centre. `longest_turn_s`: how
-/// long the rate may be zero between two directions that make one turn.
-Phases phases_of_rate(std::span<const double> time_s, std::span<const double> share, const std::vector<double>& rate,
-                      double longest_turn_s) {
+/// `share`: > 0 opens P to B, < 0 P to A: on either side the spool opens away from the centre.
+Phases phases_of_rate(std::span<const double> time_s, std::span<const double> share, const std::vector<double>& rate) {
+  constexpr double longest_turn_s = 2 * slow_half_window_s;  // without motion between two directions that make one turn
   Phases out;
   std::vector<double> turns_s;
   std::size_t moved = 0;
@@ -125,14 +124,6 @@ std::vector<double> fast_rates(std::span<const double> time_s, const std::vector
 
 }  // namespace
 
-Phases phases_of_command(std::span<const double> time_s, std::span<const double> position_set) {
-  std::vector<double> rate(time_s.size(), 0.0);
-  for (std::size_t k = 1; k < rate.size(); ++k) {
-    rate[k] = (position_set[k] - position_set[k - 1]) / std::max(time_s[k] - time_s[k - 1], 1e-9);
-  }
-  return phases_of_rate(time_s, position_set, rate, 0);
-}
-
 Phases phases_of_position(std::span<const double> time_s, std::span<const double> position_m, double stroke_m) {
   const std::vector<double> share = held_share(position_m, stroke_m);
   std::vector<double> rate = fast_rates(time_s, share);
@@ -145,7 +136,7 @@ Phases phases_of_position(std::span<const double> time_s, std::span<const double
     const double slow_rate = windows.at(k, slow_half_window_s).per_s;
     if (rate[k] == 0 && std::abs(slow_rate) > moving_rate_per_s) rate[k] = slow_rate;
   }
-  Phases out = phases_of_rate(time_s, share, rate, 2 * slow_half_window_s);
+  Phases out = phases_of_rate(time_s, share, rate);
   for (const double each : rate) out.velocity_m_per_s.push_back(static_cast<float>(each * stroke_m));
   return out;
 }

@@ -16,10 +16,6 @@ struct Phases {
   std::vector<float> velocity_m_per_s;  ///< of the spool; below 1 % of the stroke a second 0: noise has no direction
 };
 
-/// From the commanded position as a share of the stroke, for rigs whose command is exact; recordings are judged by the
-/// measured position. A turn is where the rate changes sign, or where the motion starts or stops above half of the
-/// stroke. No velocity.
-[[nodiscard]] Phases phases_of_command(std::span<const double> time_s, std::span<const double> position_set);
 /// From the measured position, whatever was commanded. Fast motion is found from means over 20 ms before and after each
 /// sample (longer than a period of dither, > 10 % of the stroke a second and five standard deviations of the noise),
 /// slow motion from what fast motion leaves, over half a second (not causal; a judge may look ahead). A turn is where

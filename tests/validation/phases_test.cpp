@@ -34,9 +34,9 @@ struct Triangle {
   [[nodiscard]] std::size_t at(double when_s) const { return static_cast<std::size_t>(std::lround(when_s / step_s)); }
 };
 
-TEST(Phases, OfACommandAreMotionHoldAndTheSecondsAroundEachTurn) {
+TEST(Phases, OfAPositionAreMotionHoldAndTheSecondsAroundEachTurn) {
   const Triangle triangle;
-  const Phases phases = phases_of_command(triangle.time_s, triangle.share);
+  const Phases phases = phases_of_position(triangle.time_s, triangle.share, 1);
   EXPECT_TRUE(phases.moving[triangle.at(10)]);
   EXPECT_FALSE(phases.rest[triangle.at(10)]);
   EXPECT_TRUE(phases.rest[triangle.at(22)]);
@@ -51,30 +51,30 @@ TEST(Phases, OfACommandAreMotionHoldAndTheSecondsAroundEachTurn) {
 TEST(Phases, OfAWholeValveOpenAwayFromTheCentreOnEitherSide) {
   Triangle triangle;
   for (double& share : triangle.share) share = -share;
-  const Phases phases = phases_of_command(triangle.time_s, triangle.share);
+  const Phases phases = phases_of_position(triangle.time_s, triangle.share, 1);
   EXPECT_TRUE(phases.opening[triangle.at(10)]) << "towards P to A";
   EXPECT_FALSE(phases.opening[triangle.at(30)]);
   EXPECT_TRUE(phases.rest[triangle.at(22)]) << "fully open to the other side";
   EXPECT_TRUE(phases.reversal[triangle.at(21)]) << "a stop far from the centre";
   std::vector<double> time_s, through;
   for (int k = 0; k < 4000; ++k) time_s.push_back(step_s * k), through.push_back(-1 + 5e-4 * k);
-  const Phases passage = phases_of_command(time_s, through);
+  const Phases passage = phases_of_position(time_s, through, 1);
   EXPECT_FALSE(passage.opening[1000]);
   EXPECT_TRUE(passage.opening[3000]);
   EXPECT_FALSE(passage.reversal[2000]) << "the spool goes through the centre without turning";
 }
 
-TEST(Phases, OfANoisyMeasuredPositionAreThoseOfTheCommandButForTheEdges) {
+TEST(Phases, OfANoisyPositionAreThoseOfTheSpoolButForTheEdges) {
   const Triangle triangle;
   std::mt19937 generator(3);
   std::normal_distribution<double> noise_m(0, 1e-6);
   std::vector<double> position_m;
   for (const double share : triangle.share) position_m.push_back(share * whole_stroke_m + noise_m(generator));
-  const Phases commanded = phases_of_command(triangle.time_s, triangle.share);
+  const Phases true_ones = phases_of_position(triangle.time_s, triangle.share, 1);
   const Phases measured = phases_of_position(triangle.time_s, position_m, whole_stroke_m);
   int different = 0;
   for (std::size_t k = 0; k < position_m.size(); ++k) {
-    different += measured.moving[k] != commanded.moving[k] || measured.reversal[k] != commanded.reversal[k] ? 1 : 0;
+    different += measured.moving[k] != true_ones.moving[k] || measured.reversal[k] != true_ones.reversal[k] ? 1 : 0;
   }
   // The rate is taken over half a second: at each of the turns and ends up to that long may differ.
   EXPECT_LT(different * step_s, 2.0);
@@ -137,8 +137,8 @@ TEST(Phases, SurviveMissingPositionsGapsAndASingleSample) {
   const Phases holes = phases_of_position(std::vector{0.0, 0.001, 5.0, 5.001},
                                           std::vector{1e-3, missing_m, missing_m, 1e-3}, whole_stroke_m);
   EXPECT_EQ(holes.moving, std::vector<bool>(4, false));
-  EXPECT_EQ(phases_of_command(std::vector{0.0}, std::vector{0.5}).rest, std::vector<bool>{true});
-  EXPECT_TRUE(phases_of_command({}, {}).moving.empty());
+  EXPECT_EQ(phases_of_position(std::vector{0.0}, std::vector{0.5}, 1).rest, std::vector<bool>{true});
+  EXPECT_TRUE(phases_of_position({}, {}, 1).moving.empty());
 }
 
 }  // namespace
