@@ -110,7 +110,8 @@ void Monitor::take(const estimation::TimedSample& sample, const sensor::Estimate
 }
 
 double Monitor::beyond_pressure_share() const {
-  if (model::declares_pressure(*reference_[0].valve)) return 0;
+  constexpr double shortest_s = 20;
+  if (model::declares_pressure(*reference_[0].valve) || state_.usage.watched_s < shortest_s) return 0;
   return std::min(mean_share(state_.status, sensor::Status::outside_flow_force_map, state_.usage.watched_s),
                   highest_pressure_share(state_.usage));
 }

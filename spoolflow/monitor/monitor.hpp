@@ -83,7 +83,7 @@ class Monitor {
   [[nodiscard]] Baseline learnt() const;
   [[nodiscard]] const Usage& usage() const { return state_.usage; }
   /// Share of the last `status_rules` minutes, as of their memory, in which the forces asked for a higher pressure
-  /// difference than is calibrated. 0 of a model whose environment declares a higher one.
+  /// difference than is calibrated. 0 of a model whose environment declares a higher one, and of less than 20 s.
   [[nodiscard]] double beyond_pressure_share() const;
   [[nodiscard]] const MonitorState& state() const { return state_; }
   /// Goes on from there. Returns false, and takes nothing, where it is of another version or holds what is no number.

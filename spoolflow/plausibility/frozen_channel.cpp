@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -173,9 +174,14 @@ double oil_temperature_changes_per_s(const Recording& means) {
 }
 
 std::string standing_channel(const Recording& run, double stroke_m) {
-  constexpr double changing_A = 0.1, moving_share = 0.2;
+  constexpr double changing_A = 0.1, changing_V = 3, moving_share = 0.2;
   std::vector<Channel> alive{Channel::position, Channel::current};
-  if (range_of(run.column(Channel::current)) > changing_A) alive.push_back(Channel::voltage);
+  for (const auto& [current, voltage] :
+       {std::pair{Channel::current, Channel::voltage}, std::pair{Channel::current_a, Channel::voltage_a},
+        std::pair{Channel::current_b, Channel::voltage_b}}) {
+    if (range_of(run.column(current)) > changing_A) alive.push_back(voltage);
+    if (range_of(run.column(voltage)) > changing_V) alive.push_back(current);
+  }
   if (range_of(run.column(Channel::position)) > moving_share * stroke_m) alive.push_back(Channel::flow);
   for (const Channel channel : alive) {
     if (const std::optional<double> value = standing_value(run.column(channel))) {

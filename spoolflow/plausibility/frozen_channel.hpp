@@ -13,8 +13,8 @@ namespace spoolflow::plausibility {
 /// rest. `means` in blocks, as RunMeans and block_means() make them. Empty: none.
 [[nodiscard]] std::string frozen_channel(const recording::Recording& means);
 
-/// A channel of a run that stands still all along while what moves it does not: the voltage while the current changes,
-/// the reference flow while the spool moves. Empty: none.
+/// A channel of a run that stands still all along while what moves it does not: a coil's voltage while its current
+/// changes or its current while its voltage does, the reference flow while the spool moves. Empty: none.
 [[nodiscard]] std::string standing_channel(const recording::Recording& run, double stroke_m);
 
 /// An oil temperature that repeats one value all along, of `means` of a recording of 30 s and more. Empty: not so.

@@ -14,6 +14,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "spoolflow/plausibility/frozen_channel.hpp"
 #include "spoolflow/recording/recording.hpp"
 #include "spoolflow/rig/bench/virtual_campaign.hpp"
 #include "spoolflow/units/conversion.hpp"
@@ -127,6 +128,18 @@ std::vector<double> signed_current(const Recording& run) {
   std::vector<double> out = run.column(Channel::current_b);
   for (std::size_t k = 0; k < out.size(); ++k) out[k] -= run.column(Channel::current_a)[k];
   return out;
+}
+
+TEST(StandingChannel, IsTheDeadVoltageOrCurrentOfOneOfTwoCoils) {
+  const Recording run = whole_valve_run();
+  constexpr double stroke_m = 2.4e-3;
+  EXPECT_THAT(standing_channel(run, stroke_m), testing::IsEmpty());
+  for (const Channel dead : {Channel::voltage_a, Channel::voltage_b, Channel::current_a, Channel::current_b}) {
+    Recording spoilt = run;
+    std::ranges::fill(spoilt.column(dead), 0.0);
+    EXPECT_THAT(standing_channel(spoilt, stroke_m),
+                testing::StartsWith(fmt::format("{} stands still at 0 all along", recording::name(dead))));
+  }
 }
 
 TEST(ChannelFindings, NameOneSignedCurrentInTheColumnsOfBothCoilsOrOfOne) {
