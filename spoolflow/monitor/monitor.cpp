@@ -26,10 +26,8 @@ constexpr double suspicion_odds = 10;
 using sensor::has;
 
 bool status_raised(const StatusShares& shares, sensor::Status status) {
-  for (std::size_t k = 0; k < status_rules.size(); ++k) {
-    if (status_rules[k].status == status) return shares.raised[k];
-  }
-  return false;
+  const std::size_t k = rule_of(status);
+  return k < status_rules.size() && shares.raised[k];
 }
 
 }  // namespace

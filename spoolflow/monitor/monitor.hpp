@@ -82,8 +82,8 @@ class Monitor {
   /// What was learnt, to compare later runs of the same valve and model with.
   [[nodiscard]] Baseline learnt() const;
   [[nodiscard]] const Usage& usage() const { return state_.usage; }
-  /// Share of the last `status_rules` minutes, as of their memory, in which the forces asked for a higher pressure
-  /// difference than is calibrated. 0 of a model whose environment declares a higher one, and of less than 20 s.
+  /// Share of the time, mostly of the last ten minutes, in which the forces asked for a higher pressure difference than
+  /// is calibrated. 0 of a model whose environment declares a higher one, and of less than 20 s.
   [[nodiscard]] double beyond_pressure_share() const;
   [[nodiscard]] const MonitorState& state() const { return state_; }
   /// Goes on from there. Returns false, and takes nothing, where it is of another version or holds what is no number.

@@ -31,6 +31,13 @@ inline constexpr std::array<StatusRule, 9> status_rules{{
     {sensor::Status::outside_temperature, 600, 0.5, Ne107::out_of_specification},
 }};
 
+/// Where the table has a status; behind its end: nowhere.
+constexpr std::size_t rule_of(sensor::Status status) {
+  std::size_t k = 0;
+  while (k < status_rules.size() && status_rules[k].status != status) ++k;
+  return k;
+}
+
 struct StatusShares {
   std::array<double, status_rules.size()> share{};
   std::array<bool, status_rules.size()> raised{};
@@ -56,11 +63,8 @@ inline void follow_status(StatusShares& state, sensor::Status status, double tim
 /// Of a status in the table, over `watched_s` since nothing was known: the share of the time in which it was set, what
 /// is longer ago than its memory counting less.
 inline double mean_share(const StatusShares& state, sensor::Status status, double watched_s) {
-  for (std::size_t k = 0; k < status_rules.size(); ++k) {
-    if (status_rules[k].status == status && watched_s > 0)
-      return state.share[k] / -std::expm1(-watched_s / status_rules[k].memory_s);
-  }
-  return 0;
+  const std::size_t k = rule_of(status);
+  return watched_s > 0 ? state.share[k] / -std::expm1(-watched_s / status_rules[k].memory_s) : 0;
 }
 
 /// The worst sign of those that are raised.

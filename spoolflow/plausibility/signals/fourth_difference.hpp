@@ -19,9 +19,10 @@ inline constexpr std::array<double, 5> fourth_difference_weights{1, -4, 6, -4, 1
 /// Standard deviation of white noise of which a quarter of all fourth differences are smaller than `quartile`, in size.
 /// What shakes the samples for less than three quarters of the time does not count.
 [[nodiscard]] inline double white_noise(double quartile) {
-  const double gain = std::sqrt(1.0 + 16 + 36 + 16 + 1);
+  double gain2 = 0;
+  for (const double weight : fourth_difference_weights) gain2 += weight * weight;
   constexpr double deviations = 0.318639;  // a quarter of all lie so near to a normal distribution's mean
-  return quartile / (deviations * gain);
+  return quartile / (deviations * std::sqrt(gain2));
 }
 
 }  // namespace spoolflow::plausibility
