@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <unsupported/Eigen/FFT>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -83,12 +84,10 @@ struct MedianSpectrum::Parts {
     if (points.size() == piece) keep();
   }
 
-  double noise_of_points() {
-    windowed.clear();
-    for (std::size_t k = 4; k < piece; ++k) windowed.push_back(std::abs(fourth_difference(&points[k - 4])));
-    const auto quarter = windowed.begin() + static_cast<std::ptrdiff_t>(windowed.size() / 4);
-    std::ranges::nth_element(windowed, quarter);
-    return white_noise(*quarter);
+  [[nodiscard]] double noise_of_points() const {
+    std::vector<double> sizes;
+    for (std::size_t k = 4; k < piece; ++k) sizes.push_back(std::abs(fourth_difference(&points[k - 4])));
+    return white_noise(numerics::quantile(std::move(sizes), 0.25));
   }
 
   void keep() {
