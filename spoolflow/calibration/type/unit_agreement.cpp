@@ -1,5 +1,6 @@
 #include "spoolflow/calibration/type/unit_agreement.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -8,6 +9,11 @@
 #include "spoolflow/numerics/equations/symmetric_equations.hpp"
 
 namespace spoolflow::calibration {
+
+double disagreeing_chi_square_of(std::size_t rows_of_one, std::size_t rows_of_other) {
+  const auto rows = static_cast<double>(std::max(rows_of_one, rows_of_other));
+  return disagreeing_chi_square * std::max(1.0, rows / rows_of_a_minute);
+}
 
 Disagreement disagreement_of(const KnownDeviations& one, const KnownDeviations& other, const KnownDeviations& prior) {
   // What a recording has shown is what it took off the prior's covariance; its mean is so much of the unit's
@@ -28,27 +34,30 @@ Disagreement disagreement_of(const KnownDeviations& one, const KnownDeviations& 
 std::string disagreeing_runs(const model::Model& type, const KnownDeviations& prior, const std::vector<UnitRun>& runs) {
   if (runs.size() < 2) return {};
   std::vector<KnownDeviations> said;
+  std::vector<std::size_t> rows;
   std::vector<std::string> files;
   for (const UnitRun& run : runs) {
     const UnitEvidence evidence(type, {run});
     if (evidence.kinds().empty()) continue;
     said.push_back(most_likely_unit(evidence, prior).known);
+    rows.push_back(evidence.kinds().size());
     files.push_back(run.recording->file.filename().string());
   }
   std::string out;
-  double worst = disagreeing_chi_square;
+  double worst = 1;
   for (std::size_t k = 0; k < said.size(); ++k) {
     for (std::size_t j = 0; j < k; ++j) {
       const Disagreement found = disagreement_of(said[j], said[k], prior);
-      if (!(found.chi_square > worst)) continue;
-      worst = found.chi_square;
+      const double most = disagreeing_chi_square_of(rows[j], rows[k]);
+      if (!(found.chi_square > worst * most)) continue;
+      worst = found.chi_square / most;
       const VariationAbout& about = all_variations()[found.variation];
       out = fmt::format(
           "{} and {} are hardly of one unit: {} is {} by the one and {} by the other, {:.1f} standard deviations "
-          "apart (all directions: chi square {:.0f}, and of one unit {:g} at most); look whose recordings they are, "
+          "apart (all directions: chi square {:.0f}, and of one unit {:.0f} at most); look whose recordings they are, "
           "and whether position sensor and spring stayed as they were between them",
           files[j], files[k], about.name, written_deviation(about.unit, found.one),
-          written_deviation(about.unit, found.other), found.deviations, found.chi_square, disagreeing_chi_square);
+          written_deviation(about.unit, found.other), found.deviations, found.chi_square, most);
     }
   }
   return out;

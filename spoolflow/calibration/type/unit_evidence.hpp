@@ -54,9 +54,9 @@ inline constexpr double closed_reading_uncertainty_m = 1e-6;
 /// A row is a mean over so much travel [m] or time [s], whichever ends first. None lies above the highest pressure
 /// difference of the maps.
 inline constexpr double row_travel_m = 1e-4, row_time_s = 0.5;
-/// A shorter row [s] is none: a spool that slips shows the meter's lag before its speed shows, and friction off its
-/// mean.
-inline constexpr double least_row_s = 0.02;
+/// A shorter row [s] is none: a spool that slips shows the meter's lag before its speed shows, and one that slips or
+/// runs fast less friction than the maps' mean.
+inline constexpr double least_row_s = 0.08;
 inline constexpr double resistance_uncertainty_share = 0.04;  ///< of copper: 10 K that nobody knows of the winding
 
 /// One standard deviation of a row of force [N] while the spool slides, and of a row of flow [m3/s].

@@ -121,6 +121,18 @@ TEST(CalibrateUnit, ASpoolThatSticksAndSlipsUnderPressureShowsItsForcesAsOftenAs
     EXPECT_NEAR(flow_error(unit.model.observer->parameters, truth, position_m), 0, 0.01);
 }
 
+TEST(CalibrateUnit, ASpoolThatRunsAcrossItsStrokeInASecondShowsNoForces) {
+  const auto force_rows = [](double way_s) {
+    const recording::TemporaryFile file("wet.csv", "");
+    write_strokes(file.path(), type().observer->parameters, {40}, type().valve.stroke_m, way_s);
+    const recording::Recording wet = recording::read_recording(file.path(), {});
+    const UnitEvidence evidence(type(), {{&wet, recording::Protocol::operation}});
+    return std::ranges::count(evidence.kinds(), EvidenceOf::force);
+  };
+  EXPECT_GT(force_rows(6), 20) << "at the speed of force benches and planned strokes";
+  EXPECT_EQ(force_rows(1), 0) << "contacts that slide faster are younger, and friction is less than the maps'";
+}
+
 /// A unit of strokes with the pump off whose file holds text before and behind them.
 CalibratedUnit unit_with(const std::string& before, const std::string& behind = "") {
   const recording::TemporaryFile file("unit.toml", before +

@@ -35,5 +35,11 @@ TEST(UnitAgreement, IsNotDeniedByARecordingThatDoesNotShowTheDirection) {
   EXPECT_NEAR(found.chi_square, (2.0 * 2 + 1) / 1.01, 0.01) << "no more than the unit's distance from its type";
 }
 
+TEST(UnitAgreement, TakesWhatTheTypesMapsAreWrongByForTheSameInAllRowsOfALongerRun) {
+  EXPECT_DOUBLE_EQ(disagreeing_chi_square_of(100, 400), disagreeing_chi_square);
+  EXPECT_DOUBLE_EQ(disagreeing_chi_square_of(1350, 100), 3 * disagreeing_chi_square);
+  EXPECT_DOUBLE_EQ(disagreeing_chi_square_of(100, 1350), disagreeing_chi_square_of(1350, 100));
+}
+
 }  // namespace
 }  // namespace spoolflow::calibration
