@@ -60,14 +60,15 @@ sensor::CurrentLimits<double> current_limits(const sensor::ObserverParameters<do
 }
 
 /// The machine's part of entries that also hold what is open of the unit itself: of a unit of a type what units differ
-/// by, of a valve that references moved what these leave open of its flow.
+/// by, of a valve that references moved what these leave open of its flow and its friction.
 model::EnvironmentWithoutSpread machines_part(const model::Model& of_one) {
   if (of_one.type) return of_one.type->environment;
-  double wear_share = 0;
+  model::WearState wear;
   for (const model::Adaptation& each : of_one.provenance.adaptations)
-    if (each.wear) wear_share = each.wear->flow_share;
+    if (each.wear) wear = *each.wear;
   const sensor::Environment<double>& now = of_one.observer->parameters.environment;
-  return {now.force_N, now.friction_share, with_instead(now.flow_share, wear_share, 0), 0};
+  return {now.force_N, with_instead(now.friction_share, wear.friction_share, 0),
+          with_instead(now.flow_share, wear.flow_share, 0), 0};
 }
 
 }  // namespace

@@ -60,14 +60,19 @@ TEST(DeclaredMachine, LeavesOpenWhatReferencesOfTheValveLeaveOpen) {
   model::Model model = example();
   constexpr double left_open = 0.06;
   model.provenance.adaptations.push_back({});
-  model.provenance.adaptations.back().wear.emplace().flow_share = left_open;
-  model.observer->parameters.environment.flow_share = left_open;
+  model::WearState& wear = model.provenance.adaptations.back().wear.emplace();
+  wear.flow_share = wear.friction_share = left_open;
+  sensor::Environment<double>& open = model.observer->parameters.environment;
+  open.flow_share = open.friction_share = left_open;
   recording::Environment declared;
   declared.density = 0.32;
+  declared.friction = 0.16;
   apply(declared, model);
   EXPECT_DOUBLE_EQ(of(model).flow_share, 0.1);  // 6 and 8 %
+  EXPECT_DOUBLE_EQ(of(model).friction_share, 0.1);
   apply({}, model);
   EXPECT_DOUBLE_EQ(of(model).flow_share, left_open);
+  EXPECT_DOUBLE_EQ(of(model).friction_share, left_open);
 }
 
 TEST(DeclaredMachine, IsWrittenWithTheModelAndReadAgain) {

@@ -65,7 +65,9 @@ model::Model moved(const model::Model& model, const model::WearState& to) {
   sensor::ObserverParameters<double>& valve = out.observer->parameters;
   valve = worn(valve, change);
   valve.environment.flow_share = with_instead(valve.environment.flow_share, from.flow_share, to.flow_share);
-  valve.band.friction_share = with_instead(valve.band.friction_share, from.friction_share, to.friction_share);
+  // It is the same at all samples: forces count for less, and the band holds it however many of them are averaged.
+  for (double* share : {&valve.band.friction_share, &valve.environment.friction_share})
+    *share = with_instead(*share, from.friction_share, to.friction_share);
   out.condensed.parameters = worn(out.condensed.parameters, change);
   return out;
 }

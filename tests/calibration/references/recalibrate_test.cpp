@@ -100,6 +100,7 @@ TEST(Recalibrate, FindsTheWearOfEdgesFrictionAndPositionZeroAndLogsIt) {
   EXPECT_NEAR(wear_of(found.model).friction_ratio, wear.friction_ratio, 0.12);
   EXPECT_NEAR(wear_of(found.model).position_zero_m, wear.position_zero_m, 2e-6);
   EXPECT_GT(found.model.observer->parameters.environment.flow_share, 0);
+  EXPECT_GT(found.model.observer->parameters.environment.friction_share, 0.03) << "what strokes leave open of friction";
   const model::Model read = model::parse_model(text_of(found.model), "valve_2.json");
   ASSERT_EQ(wear_states(read).size(), 2U);
   EXPECT_EQ(wear_of(read), wear_of(found.model));
@@ -136,6 +137,8 @@ TEST(Recalibrate, GoesBackToAnyEarlierState) {
     EXPECT_NEAR(is.friction.operation_ratio, was.friction.operation_ratio, 1e-12);
     EXPECT_NEAR(is.spring.at(1e-3).value, was.spring.at(1e-3).value, 1e-9);
     EXPECT_NEAR(is.environment.flow_share, was.environment.flow_share, 1e-9);
+    EXPECT_NEAR(is.environment.friction_share, was.environment.friction_share, 1e-9);
+    EXPECT_NEAR(is.band.friction_share, was.band.friction_share, 1e-9);
     EXPECT_EQ(wear_states(back).size(), 4U);
   }
   EXPECT_THROW(static_cast<void>(gone_back(twice, 3, how())), CalibrationError);
