@@ -63,9 +63,7 @@ sensor::CurrentLimits<double> current_limits(const sensor::ObserverParameters<do
 /// by, of a valve that references moved what these leave open of its flow and its friction.
 model::EnvironmentWithoutSpread machines_part(const model::Model& of_one) {
   if (of_one.type) return of_one.type->environment;
-  model::WearState wear;
-  for (const model::Adaptation& each : of_one.provenance.adaptations)
-    if (each.wear) wear = *each.wear;
+  const model::WearState wear = model::last_wear(of_one.provenance);
   const sensor::Environment<double>& now = of_one.observer->parameters.environment;
   return {now.force_N, with_instead(now.friction_share, wear.friction_share, 0),
           with_instead(now.flow_share, wear.flow_share, 0), 0};

@@ -15,6 +15,12 @@
 
 namespace spoolflow::model {
 
+WearState last_wear(const Provenance& provenance) {
+  for (auto each = provenance.adaptations.rbegin(); each != provenance.adaptations.rend(); ++each)
+    if (each->wear) return *each->wear;
+  return {};
+}
+
 std::string sha256_of_file(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw std::runtime_error(fmt::format("{}: cannot be read for its checksum", file.string()));

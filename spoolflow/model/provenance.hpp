@@ -73,6 +73,9 @@ struct Provenance {
   std::vector<KnownQuantity> quantities = {};  ///< of a type and its units as those of the valve the type was made from
 };
 
+/// The state into which references have last moved the model of one direction; none: as calibrated.
+[[nodiscard]] WearState last_wear(const Provenance& provenance);
+
 /// Throws std::runtime_error where the file cannot be read.
 [[nodiscard]] std::string sha256_of_file(const std::filesystem::path& file);
 [[nodiscard]] std::string sha256_of_text(std::string_view text);

@@ -206,8 +206,11 @@ class Collection {
     }
     const auto& parameters = model_.observer->parameters;
     const bool assumed_share = assumed("band_friction_share");
+    // What references leave open of friction stands in the machine's part, too.
+    const double of_references = model::last_wear(model_.provenance).friction_share,
+                 share2 = std::pow(parameters.band.friction_share, 2) - std::pow(of_references, 2);
     InputUncertainty of_map{InputQuantity::friction,
-                            parameters.band.friction_share,
+                            std::sqrt(std::max(0.0, share2)),
                             assumed_share ? Evaluation::type_b : Evaluation::type_a,
                             Distribution::normal,
                             judged_degrees_of_freedom,

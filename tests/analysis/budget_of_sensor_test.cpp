@@ -1,4 +1,5 @@
 /// The budget of the sensor calibrated on the example recordings, at points and along a run.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -76,6 +77,22 @@ TEST(BudgetAtAPoint, FrictionRulesTheCondensedSensorAndNotTheObserver) {
   };
   EXPECT_GT(share(Estimator::condensed), 0.6);
   EXPECT_LT(share(Estimator::observer), 0.6);
+}
+
+TEST(BudgetAtAPoint, CountsOnceWhatReferencesOfTheMachineLeaveOpenOfFriction) {
+  constexpr double left_open = 0.08;
+  const auto friction_uncertainty = [](const model::Model& model) {
+    const std::vector<uncertainty::InputUncertainty> all =
+        uncertainty::inputs_of(model, Estimator::observer, {}).uncertainties;
+    return std::ranges::find(all, InputQuantity::friction, &uncertainty::InputUncertainty::quantity)
+        ->standard_uncertainty;
+  };
+  model::Model moved = example();
+  moved.provenance.adaptations.emplace_back().wear.emplace().friction_share = left_open;
+  sensor::ObserverParameters<double>& valve = moved.observer->parameters;
+  for (double* share : {&valve.band.friction_share, &valve.environment.friction_share})
+    *share = std::hypot(*share, left_open);
+  EXPECT_NEAR(friction_uncertainty(moved), std::hypot(friction_uncertainty(example()), left_open), 1e-6);
 }
 
 TEST(BudgetAtAPoint, AgreesWithMonteCarloThroughTheObserver) {

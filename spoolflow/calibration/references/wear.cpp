@@ -38,7 +38,7 @@ std::vector<model::WearState> wear_states(const model::Model& model) {
 }
 
 model::WearState wear_of(const model::Model& model) {
-  return wear_states(model).back();
+  return model::last_wear(model.provenance);
 }
 
 std::vector<std::string> corrected_in_all_states(const model::Model& model) {
