@@ -33,22 +33,24 @@ Disagreement disagreement_of(const KnownDeviations& one, const KnownDeviations& 
 
 std::string disagreeing_runs(const model::Model& type, const KnownDeviations& prior, const std::vector<UnitRun>& runs) {
   if (runs.size() < 2) return {};
-  std::vector<KnownDeviations> said;
-  std::vector<std::size_t> rows;
-  std::vector<std::string> files;
+  struct Said {
+    std::string file;
+    KnownDeviations unit;
+    std::size_t rows;
+  };
+  std::vector<Said> said;
   for (const UnitRun& run : runs) {
     const UnitEvidence evidence(type, {run});
     if (evidence.kinds().empty()) continue;
-    said.push_back(most_likely_unit(evidence, prior).known);
-    rows.push_back(evidence.kinds().size());
-    files.push_back(run.recording->file.filename().string());
+    said.push_back(
+        {run.recording->file.filename().string(), most_likely_unit(evidence, prior).known, evidence.kinds().size()});
   }
   std::string out;
   double worst = 1;
   for (std::size_t k = 0; k < said.size(); ++k) {
     for (std::size_t j = 0; j < k; ++j) {
-      const Disagreement found = disagreement_of(said[j], said[k], prior);
-      const double most = disagreeing_chi_square_of(rows[j], rows[k]);
+      const Disagreement found = disagreement_of(said[j].unit, said[k].unit, prior);
+      const double most = disagreeing_chi_square_of(said[j].rows, said[k].rows);
       if (!(found.chi_square > worst * most)) continue;
       worst = found.chi_square / most;
       const VariationAbout& about = all_variations()[found.variation];
@@ -56,7 +58,7 @@ std::string disagreeing_runs(const model::Model& type, const KnownDeviations& pr
           "{} and {} are hardly of one unit: {} is {} by the one and {} by the other, {:.1f} standard deviations "
           "apart (all directions: chi square {:.0f}, and of one unit {:.0f} at most); look whose recordings they are, "
           "and whether position sensor and spring stayed as they were between them",
-          files[j], files[k], about.name, written_deviation(about.unit, found.one),
+          said[j].file, said[k].file, about.name, written_deviation(about.unit, found.one),
           written_deviation(about.unit, found.other), found.deviations, found.chi_square, most);
     }
   }
