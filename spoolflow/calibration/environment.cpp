@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "spoolflow/calibration/numerics/covariance.hpp"
 #include "spoolflow/model/oil.hpp"
+#include "spoolflow/numerics/sum_of_squares.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -65,8 +65,8 @@ model::EnvironmentWithoutSpread machines_part(const model::Model& of_one) {
   if (of_one.type) return of_one.type->environment;
   const model::WearState wear = model::last_wear(of_one.provenance);
   const sensor::Environment<double>& now = of_one.observer->parameters.environment;
-  return {now.force_N, with_instead(now.friction_share, wear.friction_share, 0),
-          with_instead(now.flow_share, wear.flow_share, 0), 0};
+  return {now.force_N, numerics::with_instead(now.friction_share, wear.friction_share, 0),
+          numerics::with_instead(now.flow_share, wear.flow_share, 0), 0};
 }
 
 }  // namespace
@@ -79,9 +79,10 @@ void apply(const recording::Environment& environment, model::Model& model) {
     sensor::ObserverParameters<double>& valve = of_one.observer->parameters;
     const sensor::Environment<double> declared = of_valve(environment, model.fluid, valve), now = valve.environment;
     valve.environment = declared;
-    valve.environment.force_N = with_instead(now.force_N, before.force_N, declared.force_N);
-    valve.environment.friction_share = with_instead(now.friction_share, before.friction_share, declared.friction_share);
-    valve.environment.flow_share = with_instead(now.flow_share, before.flow_share, declared.flow_share);
+    valve.environment.force_N = numerics::with_instead(now.force_N, before.force_N, declared.force_N);
+    valve.environment.friction_share =
+        numerics::with_instead(now.friction_share, before.friction_share, declared.friction_share);
+    valve.environment.flow_share = numerics::with_instead(now.flow_share, before.flow_share, declared.flow_share);
     if (of_one.type) {
       of_one.type->environment = {declared.force_N, declared.friction_share, declared.flow_share,
                                   before.breakaway_share};

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/model/residual_of.hpp"
+#include "spoolflow/numerics/sum_of_squares.hpp"
 
 namespace spoolflow::uncertainty {
 namespace {
@@ -207,10 +208,9 @@ class Collection {
     const auto& parameters = model_.observer->parameters;
     const bool assumed_share = assumed("band_friction_share");
     // What references leave open of friction stands in the machine's part, too.
-    const double of_references = model::last_wear(model_.provenance).friction_share,
-                 share2 = std::pow(parameters.band.friction_share, 2) - std::pow(of_references, 2);
+    const double of_references = model::last_wear(model_.provenance).friction_share;
     InputUncertainty of_map{InputQuantity::friction,
-                            std::sqrt(std::max(0.0, share2)),
+                            numerics::with_instead(parameters.band.friction_share, of_references, 0),
                             assumed_share ? Evaluation::type_b : Evaluation::type_a,
                             Distribution::normal,
                             judged_degrees_of_freedom,

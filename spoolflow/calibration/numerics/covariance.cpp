@@ -1,7 +1,5 @@
 #include "spoolflow/calibration/numerics/covariance.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -17,11 +15,6 @@ Eigen::MatrixXd inverse_of_covariance(const Eigen::MatrixXd& matrix) {
         "units have a deviation that neither their tolerances nor their strokes limit; give each of [tolerances] a "
         "value > 0");
   return *std::move(inverse);
-}
-
-double with_instead(double whole, double from, double to) {
-  if (from == to) return whole;
-  return std::hypot(std::sqrt(std::max(0.0, whole * whole - from * from)), to);
 }
 
 }  // namespace spoolflow::calibration

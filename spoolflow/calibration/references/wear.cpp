@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "spoolflow/calibration/numerics/covariance.hpp"
+#include "spoolflow/numerics/sum_of_squares.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -64,10 +64,10 @@ model::Model moved(const model::Model& model, const model::WearState& to) {
                                 to.friction_ratio / from.friction_ratio, to.position_zero_m - from.position_zero_m};
   sensor::ObserverParameters<double>& valve = out.observer->parameters;
   valve = worn(valve, change);
-  valve.environment.flow_share = with_instead(valve.environment.flow_share, from.flow_share, to.flow_share);
+  valve.environment.flow_share = numerics::with_instead(valve.environment.flow_share, from.flow_share, to.flow_share);
   // It is the same at all samples: forces count for less, and the band holds it however many of them are averaged.
   for (double* share : {&valve.band.friction_share, &valve.environment.friction_share})
-    *share = with_instead(*share, from.friction_share, to.friction_share);
+    *share = numerics::with_instead(*share, from.friction_share, to.friction_share);
   out.condensed.parameters = worn(out.condensed.parameters, change);
   return out;
 }
